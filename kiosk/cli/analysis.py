@@ -15,6 +15,7 @@ from kiosk import UserInputError
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import QTable
 from kiosk.cli.options import data_option, json_option, progress_bar
+from kiosk.cli.terminal import one_line
 from kiosk.experiment.condition import Condition
 from kiosk.export.layouts import new_folder, write_text
 from kiosk.files import check_writable, write_file
@@ -69,7 +70,7 @@ def calibrate_command(
     click.echo(_estimates_in_words(found, checked, study))
     for file in (out, page):
         if file is not None:
-            click.echo(f"Written: {file}")
+            click.echo(one_line(f"Written: {file}"))
 
 
 def _estimates_in_words(found: Any, checked: Any, study: Any) -> str:
@@ -139,7 +140,11 @@ def plan_check(plan: Path, *, as_json: bool) -> None:
         click.echo(json.dumps({"sha256": sha256, "plan": read.model_dump(mode="json"), "levels": levels}))
         return
     families = len({each.family for each in read.hypothesis})
-    click.echo(f"{plan} is a plan: {len(read.hypothesis)} hypotheses in {families} families, {read.n_per_arm} an arm.")
+    click.echo(
+        one_line(
+            f"{plan} is a plan: {len(read.hypothesis)} hypotheses in {families} families, {read.n_per_arm} an arm."
+        )
+    )
     for n, level in read.levels():
         click.echo(f"  at {n} an arm: two-sided p < {level:.5f}")
     click.echo(f"SHA-256 {sha256}")
@@ -380,7 +385,7 @@ def report_command(
         click.echo(json.dumps(document))
         return
     click.echo(_report_in_words(document))
-    click.echo(f"Written: {out}")
+    click.echo(one_line(f"Written: {out}"))
 
 
 def _analysed(export: Path, plan: Path | None, exclude: Path | None) -> Any:

@@ -93,7 +93,7 @@ def backup_command(data: Path, to: str | None, keep: int, keys: tuple[str, ...],
         click.echo(json.dumps(told | {"sha256": carried.sha256, "encrypted": carried.encrypted}))
         return
     how = ", encrypted" if carried.encrypted else ""
-    click.echo(f"The copy is {carried.file}{how}: {carried.bytes:,} bytes, written and read back alike.")
+    click.echo(one_line(f"The copy is {carried.file}{how}: {carried.bytes:,} bytes, written and read back alike."))
     click.echo(f"SHA-256 {carried.sha256}; copies kept there: {carried.kept}.")
 
 
@@ -115,7 +115,9 @@ def browse_command(data: Path, port: int, *, opens: bool) -> None:
             flaws = checking.verify(Path(place), tell)
         if flaws:
             raise UserInputError(f"the database is not as it was written: 'recollect verify --data {data}' says why")
-        click.echo(f"http://127.0.0.1:{port}/ shows a verified copy of {data}; Ctrl+C ends it and removes the copy.")
+        click.echo(
+            one_line(f"http://127.0.0.1:{port}/ shows a verified copy of {data}; Ctrl+C ends it and removes the copy.")
+        )
         serve = ("serve", "--immutable", str(copy), "--host", "127.0.0.1", "--port", str(port))
         command = [sys.executable, "-m", "datasette", *serve, "--setting", "allow_download", "off"]
         # Ctrl+C reaches both; this one waits until the other has ended.
@@ -268,12 +270,12 @@ def merge_command(folders: tuple[Path, ...], out: Path, sites: tuple[tuple[Path,
         named = [asdict(each) | {"folder": str(each.folder)} for each in studies]
         click.echo(json.dumps({"out": str(out), "folders": len(folders), "sessions": sessions, "studies": named}))
         return
-    click.echo(f"{out} holds {counted(sessions, 'session')} of {counted(len(folders), 'folder')}.")
+    click.echo(one_line(f"{out} holds {counted(sessions, 'session')} of {counted(len(folders), 'folder')}."))
     if len({each.sha256 for each in studies}) > 1:
         click.echo("caution: they are of studies that differ; compare them with 'recollect study diff':")
         for each in studies:
             sha256 = each.sha256[:SHORT_SHA] or "unknown"
-            click.echo(f"  {sha256} {each.title!r}: {counted(each.sessions, 'session')} in {each.folder}")
+            click.echo(one_line(f"  {sha256} {each.title!r}: {counted(each.sessions, 'session')} in {each.folder}"))
 
 
 @click.command()
@@ -305,7 +307,7 @@ def export_command(data: Path, out: Path, *, bids: bool, shuffled_ids: bool, as_
     if as_json:
         click.echo(json.dumps({"out": str(out)} | exported.to_json()))
         return
-    click.echo(f"The data set in {out} holds {counted(exported.participants, 'session')}.")
+    click.echo(one_line(f"The data set in {out} holds {counted(exported.participants, 'session')}."))
     if exported.not_shared:
         click.echo(f"Left out, as their visitors did not agree to publishing: {exported.not_shared}.")
     if exported.under_way:

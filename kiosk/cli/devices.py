@@ -317,7 +317,7 @@ def render_command(
             pack = render_pack(engine, plan.language, texts, folder, tell)
         told[plan.language] = {"folder": str(folder), "clips": len(pack.clips), "sha256": pack.sha256}
         if not as_json:
-            click.echo(f"{plan.language}: {pack.described} in {folder}")
+            click.echo(one_line(f"{plan.language}: {pack.described} in {folder}"))
     if as_json:
         click.echo(json.dumps(told))
 
@@ -338,7 +338,7 @@ def script_command(study: Path | None, language: str, *, as_json: bool) -> None:
         return
     click.echo(f"Read each line as one calm sentence; store it under its name as a WAV file ({language}).\n")
     for name, text in lines.items():
-        click.echo(f"{name}  {text}")
+        click.echo(one_line(f"{name}  {text}"))
 
 
 @voice_group.command("import")
@@ -363,7 +363,9 @@ def import_command(
         made = {"folder": str(out), "clips": len(pack.clips), "missing": missing, "sha256": pack.sha256}
         click.echo(json.dumps(made))
         return
-    click.echo(f"{pack.described} in {out}; {missing} texts are missing" if missing else f"{pack.described} in {out}")
+    click.echo(
+        one_line(f"{pack.described} in {out}; {missing} texts are missing" if missing else f"{pack.described} in {out}")
+    )
 
 
 @voice_group.command("missing")

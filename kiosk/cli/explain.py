@@ -237,7 +237,7 @@ def explain_command(
     else:
         click.echo("\n".join(map(one_line, _one(moments[0]) if one else _all(moments))))
     if picture is not None:
-        click.echo(f"The boards are drawn in {picture}.", err=True)
+        click.echo(one_line(f"The boards are drawn in {picture}."), err=True)
     if any(moment.differs for moment in moments):
         sys.exit(DIFFERS)
 

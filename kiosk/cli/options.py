@@ -12,7 +12,7 @@ import click
 
 from kiosk import UserInputError
 from kiosk.cli.composition import DATA
-from kiosk.cli.terminal import console
+from kiosk.cli.terminal import console, one_line
 from kiosk.places import ASSETS
 
 if TYPE_CHECKING:
@@ -44,7 +44,9 @@ def _stored_data_option(is_there: Callable[[Path], bool]) -> Callable[..., Any]:
             return given
         if is_there(DATA) or not is_there(REHEARSALS):
             return DATA
-        click.echo(f"Nothing is stored in {DATA} yet, so this is about the rehearsals in {REHEARSALS}.", err=True)
+        click.echo(
+            one_line(f"Nothing is stored in {DATA} yet, so this is about the rehearsals in {REHEARSALS}."), err=True
+        )
         return REHEARSALS
 
     return click.option(

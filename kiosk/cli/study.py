@@ -266,7 +266,7 @@ def study_cards(file: Path, sheet: Path | None, *, names: bool, practice: bool, 
     for warning in warnings:
         tell_caution(warning)
     if sheet is not None:
-        click.echo(f"The cards are drawn on {sheet}.")
+        click.echo(one_line(f"The cards are drawn on {sheet}."))
 
 
 def write_names(settings: Settings, deck: str) -> None:
@@ -283,7 +283,7 @@ def write_names(settings: Settings, deck: str) -> None:
     forms = {language: card_forms(catalogue) for language, catalogue in spoken.items()}
     known = {language: names_in(catalogue, cards) for language, catalogue in spoken.items()}
     write_file(file, names_table(cards, forms, known))
-    click.echo(f"Fill in the names of the cards in {file}.", err=True)
+    click.echo(one_line(f"Fill in the names of the cards in {file}."), err=True)
 
 
 @study.command("new")
@@ -330,10 +330,10 @@ def study_new(
         packages = [str(folder / "packages" / name) for name in chosen.packages]
         click.echo(json.dumps({"study": str(folder / STUDY_FILE), "files": sorted(files), "packages": packages}))
         return
-    click.echo(f"{len(files)} files were written to {folder}. Read {folder / 'README.md'} first, then:")
+    click.echo(one_line(f"{len(files)} files were written to {folder}. Read {folder / 'README.md'} first, then:"))
     for name in chosen.packages:
-        click.echo(f"  pip install {folder / 'packages' / name}")
-    click.echo(f"  recollect rehearse --headless --study {folder / STUDY_FILE}")
+        click.echo(one_line(f"  pip install {folder / 'packages' / name}"))
+    click.echo(one_line(f"  recollect rehearse --headless --study {folder / STUDY_FILE}"))
 
 
 def _ask(what: str, given: str | None, usual: str, *, asks: bool) -> str:
@@ -419,8 +419,8 @@ def study_import(
         click.echo(json.dumps(told))
         return
     items = "1 item" if len(read.items) == 1 else f"{len(read.items)} items"
-    click.echo(f"{items} written to {out}")
+    click.echo(one_line(f"{items} written to {out}"))
     for sentence in left:
         click.echo(f"not taken: {one_line(sentence)}")
     for sentence in unclear:
-        click.echo(f"to change in {out} before it is used: {one_line(sentence)}")
+        click.echo(one_line(f"to change in {out} before it is used: {sentence}"))

@@ -54,13 +54,13 @@ def pack_command(file: Path, out: Path | None, key: Path | None, *, as_json: boo
         told = {"file": str(out), "sha256": package.sha256, "bytes": len(package.content), "files": [*package.files]}
         click.echo(json.dumps(told | {"signature": str(signature) if signature else None}))
         return
-    click.echo(f"{package.sha256}  {out}")
+    click.echo(one_line(f"{package.sha256}  {out}"))
     click.echo(f"{len(package.files)} files of the study's own, {len(package.content):,} bytes.", err=True)
     if signature:
-        click.echo(f"Its signature is {signature}.", err=True)
+        click.echo(one_line(f"Its signature is {signature}."), err=True)
     if study.settings.experimenter.pin_hash:
         local = out.with_suffix(LOCAL_ENDING)
-        click.echo(f"The PIN is not in it: put [experimenter] into {local} on each kiosk.", err=True)
+        click.echo(one_line(f"The PIN is not in it: put [experimenter] into {local} on each kiosk."), err=True)
 
 
 @click.command("diff")

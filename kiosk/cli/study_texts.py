@@ -64,7 +64,7 @@ def _read(settings: Settings, translation: Translation, file: Path, *, as_json: 
         click.echo(json.dumps({"files": [str(path) for path in written], "left_out": left}))
         return
     for path in written:
-        click.echo(f"written: {path}")
+        click.echo(one_line(f"written: {path}"))
     for sentence in left:
         click.echo(f"left out: {one_line(sentence)}")
     if translation.language not in map(code_of, settings.languages):

@@ -94,8 +94,8 @@ def draft_command(
     if as_json:
         click.echo(json.dumps({"folder": str(place), "language": plan.language, "wordings": total, "sound": sound}))
         return
-    click.echo(f"{total} wordings of {len(draft.messages)} messages are in {place}; {sound} pass the checks.")
-    click.echo(f"Next: recollect study wording review {file}{_option('language', language)}")
+    click.echo(one_line(f"{total} wordings of {len(draft.messages)} messages are in {place}; {sound} pass the checks."))
+    click.echo(one_line(f"Next: recollect study wording review {file}{_option('language', language)}"))
 
 
 @wording.command("review")
@@ -142,7 +142,7 @@ def review_command(
     counts = {state: len(draft.of_state(state)) for state in State}
     click.echo(f"{counts[State.TAKEN]} taken, {counts[State.LEFT]} left, {counts[State.OPEN]} undecided.")
     if not counts[State.OPEN]:
-        click.echo(f'Next: recollect study wording sign {file} --name "Your Name"')
+        click.echo(one_line(f'Next: recollect study wording sign {file} --name "Your Name"'))
 
 
 @wording.command("sign")
@@ -167,9 +167,11 @@ def sign_command(file: Path, folder: str, name: str, *, as_json: bool) -> None:
     if as_json:
         click.echo(json.dumps({"folder": str(place), "name": signed.name, "sha256": signed.sha256}))
         return
-    click.echo(f"{place} is signed by {signed.name}: {signed.sha256}")
+    click.echo(one_line(f"{place} is signed by {signed.name}: {signed.sha256}"))
     if not settings.assistance.wording:
-        click.echo(f'To use it, put this into {file}:\n[assistance]\nwording = "./{folder}"')
+        click.echo(one_line(f"To use it, put this into {file}:"))
+        click.echo("[assistance]")
+        click.echo(one_line(f'wording = "./{folder}"'))
 
 
 def _read(file: Path, language: str | None) -> tuple[Settings, SessionConfig]:

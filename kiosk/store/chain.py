@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import json
 import logging
+import os
 import sqlite3
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -181,19 +182,34 @@ def missing_since_written(connection: sqlite3.Connection, folder: Path) -> Itera
 
 
 def read_heads(folder: Path) -> list[Head]:
-    """Return the heads in the file of a data folder; a line that a crash has torn is passed over."""
+    """Return the heads in the file of a data folder; lines that cannot be read are left out."""
+    return [head for head in _lines(_content(folder)) if head is not None]
+
+
+def unreadable_lines(folder: Path) -> int:
+    """Count the lines that cannot be read, without the last one, which a crash may have torn."""
+    return _lines(_content(folder))[:-1].count(None)
+
+
+def _content(folder: Path) -> bytes:
     try:
-        content = read_bytes(folder / FILE)
+        return read_bytes(folder / FILE)
     except OSError:
-        return []
-    heads = []
-    for start in range(0, len(content), _LINE):
-        with suppress(ValueError):
-            told, _, check = content[start : start + _LINE].decode("ascii").rstrip("\n").rpartition(" ")
-            session, events, sha256 = told.split()
-            if check == _check(told):
-                heads.append(Head(int(session), int(events), bytes.fromhex(sha256)))
-    return heads
+        return b""
+
+
+def _lines(content: bytes) -> list[Head | None]:
+    return [_head(content[start : start + _LINE]) for start in range(0, len(content), _LINE)]
+
+
+def _head(line: bytes) -> Head | None:
+    """Read a line of the file of heads; None if it is not as it was written."""
+    with suppress(ValueError):
+        told, _, check = line.decode("ascii").rstrip("\n").rpartition(" ")
+        session, events, sha256 = told.split()
+        if check == _check(told):
+            return Head(int(session), int(events), bytes.fromhex(sha256))
+    return None
 
 
 def _check(told: str) -> str:
@@ -221,8 +237,14 @@ class HeadsFile:
                 make_private(self._path)
                 give_to_owner_of_folder(self._path)
             self._file = self._path.open("r+b", buffering=0)
-            # What a crash left of a line is written over.
+            # Only the last line may be torn after a crash, so the earlier ones must be on the disk.
+            os.fsync(self._file.fileno())
             self._at = self._file.seek(0, 2) // _LINE * _LINE
+            # What a crash left of a line is written over.
+            if self._at:
+                self._file.seek(self._at - _LINE)
+                if _head(self._file.read(_LINE)) is None:
+                    self._at -= _LINE
         except OSError as error:
             self._give_up(error)
 

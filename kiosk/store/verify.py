@@ -17,7 +17,8 @@ from typing import NamedTuple
 from kiosk import UserInputError
 from kiosk.experiment.events import from_fields
 from kiosk.garbage import rare_collections
-from kiosk.store.chain import chained_events, lost_ends, missing_since_written
+from kiosk.store.chain import FILE as HEADS_FILE
+from kiosk.store.chain import chained_events, lost_ends, missing_since_written, unreadable_lines
 from kiosk.store.connecting import reason
 from kiosk.store.copies import Elsewhere, KnownCopy, look_elsewhere
 from kiosk.store.database import MIGRATIONS, open_as_it_is
@@ -177,6 +178,9 @@ def _sources(connection: sqlite3.Connection) -> _Found:
 def _heads(connection: sqlite3.Connection, folder: Path | None = None) -> _Found:
     told = dict(missing_since_written(connection, folder)) if folder is not None else {}
     told |= lost_ends(connection)
+    unreadable = unreadable_lines(folder) if folder is not None else 0
+    if unreadable:
+        yield HEADS_FILE, f"has lines that cannot be read: {unreadable}"
     for session, what in sorted(told.items()):
         yield f"session {session}", what
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from io import BytesIO, StringIO, TextIOWrapper
@@ -13,7 +14,7 @@ import pytest
 from rich.table import Table
 from rich.text import Text
 
-from kiosk import DISK_FULL, UserInputError, program
+from kiosk import DISK_FULL, UserInputError, cli, program
 from kiosk.cli.main import main, recollect
 from kiosk.cli.terminal import console, counted, harmless, one_line, tell_caution
 from kiosk.experiment.events import RobotDisconnected, SessionStarted
@@ -26,6 +27,10 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="pipes and devic
 
 TITLE = "Ein Gedächtnisspiel — 記憶"
 ENCODINGS = ("ascii", "cp1252")
+PATHS = (
+    r"\{(out|file|folder|place|data|path|shots|sheet|picture|plan|local|DATA|REHEARSALS|\w+\.(file|folder|path))\b[^.]"
+)
+"""Names in the sources of the commands that stand for paths, inside an f-string."""
 
 
 @pytest.fixture(scope="module")
@@ -115,6 +120,12 @@ def test_what_would_steer_a_terminal_is_printed_by_its_number_and_all_else_as_it
     kept = "tabs\tand lines\n, no-break\N{NO-BREAK SPACE}space, \N{ZERO WIDTH JOINER}, \N{SOFT HYPHEN}, مرحبا, 👩‍👧"
     assert harmless(kept) == kept
     assert one_line("a\nb\u2028c\x85d\x1b") == r"a b c d\x1b"
+
+
+@pytest.mark.parametrize("file", sorted(Path(cli.__file__).parent.glob("*.py")), ids=lambda file: file.stem)
+def test_a_path_is_printed_on_one_line_whatever_its_name_holds(file: Path) -> None:
+    echoed = re.findall(r"click\.echo\(\s*f[\"'].*", file.read_text(encoding="utf-8"))
+    assert [line for line in echoed if re.search(PATHS, line)] == []
 
 
 def test_a_text_in_a_table_is_no_markup_no_emoji_and_does_not_steer_the_terminal() -> None:

@@ -302,6 +302,28 @@ def test_a_line_that_a_crash_has_torn_is_no_flaw_and_is_written_over(folder: Pat
     assert verify(folder) == []
 
 
+def test_a_line_that_cannot_be_read_is_found_unless_it_is_the_last(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        recorder.begin(provenance, COMPLETED)
+        recorder.begin(replace(provenance, seed=5), COMPLETED)
+    whole = (folder / HEADS).read_bytes()
+    (folder / HEADS).write_bytes(whole[:-8] + b"\0" * 8)
+    assert verify(folder) == []
+    (folder / HEADS).write_bytes(b"\0" * 8 + whole[8:])
+    assert lost(folder) == ["recollect.heads: has lines that cannot be read: 1"]
+
+
+def test_a_whole_line_that_a_crash_has_torn_is_written_over(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        recorder.begin(provenance, COMPLETED)
+    torn = (folder / HEADS).read_bytes()[:-8] + b"\0" * 8
+    (folder / HEADS).write_bytes(torn)
+    with Recorder(folder) as recorder:
+        recorder.begin(replace(provenance, seed=5), COMPLETED)
+    assert [(head.session, head.events) for head in read_heads(folder)] == [(2, 3)]
+    assert verify(folder) == []
+
+
 def test_a_file_of_heads_that_cannot_be_written_costs_no_session(folder: Path, provenance: Provenance) -> None:
     (folder / HEADS).mkdir(parents=True)
     with Recorder(folder) as recorder:
