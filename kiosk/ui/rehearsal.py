@@ -23,7 +23,7 @@ from PySide6.QtQuick import QQuickItem, QQuickWindow
 from kiosk import DISK_FULL, StorageError, UserInputError, is_nearly_full, unwritable
 from kiosk.config import STAGES
 from kiosk.experiment import effects as do
-from kiosk.experiment.effects import Effect, Outcome
+from kiosk.experiment.effects import Effect, Mood, Outcome
 from kiosk.experiment.events import WorldEvent
 from kiosk.experiment.information import RETURNING
 from kiosk.experiment.outcomes import Stage
@@ -175,10 +175,9 @@ class Screenshots:
 
     def watch(self, effects: Iterable[Effect], stage: Stage) -> None:
         """Take a picture if these effects, in this stage, were the first to bring their moment."""
-        for moment in _moments(effects, stage):
-            if moment not in self._taken:
-                self._taken.append(moment)
-                self._take_when_settled(f"{len(self._taken):02}-{moment}.png")
+        moment = moment_of(effects, stage)
+        if moment is not None:
+            self.take(moment)
 
     def take(self, moment: str) -> None:
         """Take a picture of what is shown now, the first time that it is called so."""
@@ -218,40 +217,49 @@ def unwritten(picture: Path) -> UserInputError | StorageError:
     return StorageError(f"{what}: {DISK_FULL}") if is_nearly_full(picture.parent) else UserInputError(what)
 
 
-_NAMES: dict[type[Effect], str] = {
-    do.ShowAbout: "about",
-    do.ShowConsent: "consent",
-    do.ShowAgeQuestion: "age",
-    do.ShowValidationErrors: "missing",
-    do.ShowIntroduction: "introduction",
-    do.RevealCard: "card",
-    do.MarkMatched: "pair",
-    do.ShowResult: "result",
-    do.ShowAnswer: "answer",
-    do.HideItems: "other-items",
-    do.ShowDebrief: "debrief",
-    do.ShowThanks: "thanks",
-    do.AskStillThere: "still-there",
-    do.ShowPause: "pause",
+_NAMES: dict[type[Effect], tuple[int, str]] = {
+    do.ShowAbout: (2, "about"),
+    do.ShowConsent: (2, "consent"),
+    do.ShowAgeQuestion: (2, "age"),
+    do.ShowValidationErrors: (2, "missing"),
+    do.ShowIntroduction: (2, "introduction"),
+    do.RevealCard: (4, "card"),
+    do.MarkMatched: (2, "pair"),
+    do.ShowResult: (2, "result"),
+    do.ShowAnswer: (2, "answer"),
+    do.HideItems: (2, "other-items"),
+    do.ShowDebrief: (2, "debrief"),
+    do.ShowThanks: (2, "thanks"),
+    do.AskStillThere: (2, "still-there"),
+    do.ShowPause: (2, "pause"),
 }
 
 
-def _moments(effects: Iterable[Effect], stage: Stage) -> Iterable[str]:
-    """Return what these effects have brought, in names for files."""
-    for effect in effects:
-        match effect:
-            case do.ShowBoard(practice=practice):
-                yield "practice" if practice else "board"
-            case do.LockBoard(wait=wait):
-                yield wait.value.replace("_", "-")
-            case do.HighlightHint(row=row, column=column):
-                yield _mark(row, column)
-            case do.SetExpression(mood=mood):
-                yield mood.value
-            case do.ShowItems(number=number):
-                yield f"{'about-you' if stage is Stage.ABOUT_YOU else 'items'}-{number}"
-            case _ if type(effect) in _NAMES:
-                yield _NAMES[type(effect)]
+def moment_of(effects: Iterable[Effect], stage: Stage) -> str | None:
+    """Return the name for a picture of what these effects bring, if it is worth one.
+
+    A mark goes before its card, and a face comes after all else. What comes at once is one picture, so a face or a card
+    has one of its own only where it comes alone.
+    """
+    moments = [moment for effect in effects if (moment := _moment(effect, stage)) is not None]
+    return min(moments, default=(0, None))[1]
+
+
+def _moment(effect: Effect, stage: Stage) -> tuple[int, str] | None:
+    """Return what an effect brings, with its rank: the lowest gives the picture its name."""
+    match effect:
+        case do.ShowBoard(practice=practice):
+            return 0, "practice" if practice else "board"
+        case do.ShowItems(number=number):
+            return 0, f"{'about-you' if stage is Stage.ABOUT_YOU else 'items'}-{number}"
+        case do.HighlightHint(row=row, column=column):
+            return 1, _mark(row, column)
+        case do.LockBoard(wait=wait):
+            return 3, wait.value.replace("_", "-")
+        case do.SetExpression(mood=mood):
+            return None if mood is Mood.IDLE else (5, mood.value)
+        case _:
+            return _NAMES.get(type(effect))
 
 
 def _mark(row: int | None, column: int | None) -> str:
