@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import ast
 import json
+import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -15,6 +16,7 @@ from pathlib import Path
 import pytest
 
 from tests.shared import made_once
+from tests.test_prose import statements
 
 PACKAGE = Path(__file__).parents[1] / "kiosk"
 
@@ -121,11 +123,13 @@ def imported(module: str, file: Path) -> tuple[tuple[int, str], ...]:
 
 @cache
 def _imports(package: str, text: str) -> tuple[tuple[int, str], ...]:
-    return tuple(_walk(package, ast.parse(text)))
+    # Only a call that imports can be in an expression.
+    nodes = ast.walk if re.search("import_module|__import__", text) else statements
+    return tuple(_walk(package, nodes(ast.parse(text))))
 
 
-def _walk(package: str, tree: ast.Module) -> Iterator[tuple[int, str]]:
-    for node in ast.walk(tree):
+def _walk(package: str, nodes: Iterable[ast.AST]) -> Iterator[tuple[int, str]]:
+    for node in nodes:
         match node:
             case ast.Import(names=names):
                 yield from ((node.lineno, alias.name) for alias in names)

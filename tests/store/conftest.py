@@ -10,11 +10,20 @@ from pathlib import Path
 import pytest
 
 from kiosk.experiment.outcomes import SessionKind
+from kiosk.store import codes
 from kiosk.store.recorder import Provenance
 from tests.experiment.driver import Driver, with_memory
 from tests.samples import mixed, plan
 
 ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def cheap_codes() -> Iterator[None]:
+    """Let a code cost next to nothing: these tests give many, and none is to hold against an attack."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(codes, "_COST", 2**5)
+        yield
 
 
 @pytest.fixture
