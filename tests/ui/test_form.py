@@ -321,6 +321,19 @@ def test_the_way_on_says_whether_something_is_left_out(booth: Booth) -> None:
     assert booth.item("continue").property("words") == "Next"
 
 
+@pytest.mark.usefixtures("given")
+def test_the_way_on_waits_until_what_is_asked_is_answered_or_typed(booth: Booth) -> None:
+    asked = ITEMS["integer"].model_copy(update={"required": "once"})
+    ask(booth, asked, ITEMS["likert"].model_copy(update={"required": False}), ITEMS["page"])
+    assert booth.item("continue").property("waits")
+    booth.app.screens.form.draft(asked.id, "7")
+    assert not booth.item("continue").property("waits")
+    booth.app.screens.form.draft(asked.id, "")
+    assert booth.item("continue").property("waits")
+    booth.app.screens.form.show_missing((asked.id,))
+    assert not booth.item("continue").property("waits")
+
+
 def small(booth: Booth, qtbot: QtBot) -> None:
     """Make the window a small one."""
     booth.app.window.resize(1280, 720)

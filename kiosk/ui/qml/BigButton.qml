@@ -11,7 +11,7 @@ Button {
     // How wide it may be at most; its words then take more lines.
     property real most: Infinity
     property bool quiet: false
-    // A quiet one that is the way on, once something else is done: paler than the others, and not filled as what is ticked.
+    // A quiet one that is the way on, once something else is done: paler than the others.
     property bool waits: false
     // How round it is at most.
     property real corner: Infinity
@@ -47,8 +47,8 @@ Button {
     background: Rectangle {
         id: ground
         radius: Math.min(height / 2, button.topPadding + button.font.pixelSize, button.corner)
-        color: button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
-        border.color: button.waits ? Theme.edge : Theme.sea
+        color: button.waits ? Theme.shelf : button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
+        border.color: button.waits ? Theme.slot : Theme.sea
         border.width: button.quiet ? 3 * Theme.unit : 0
 
         FocusRing {

@@ -95,7 +95,9 @@ PageFrame {
 
     wider: !alone && form.items.every(item => scales(item) || item.kind === "slider")
     title: words["form-title"]
-    quiet: form.skips
+    // Pale until the page is answered, and yet to be pressed: what is left out is pointed out then.
+    quiet: form.skips || !form.complete
+    way.waits: !form.skips && !form.complete
     label: words[form.skips ? "form-skip" : "form-next"]
     beside: progress
     onWent: form.proceed()

@@ -245,6 +245,12 @@ class FormScreen(QObject):
         left = {item.id: item.required for item in self._items if not isinstance(item, TextPage)}
         return bool(self._missing) and not any(left[name] is True or self._is_wrong(name) for name in self._missing)
 
+    @Property(bool, notify=marked)
+    def complete(self) -> bool:
+        """Whether everything is answered or typed that is not free to be left out."""
+        asked = [item for item in self._shown if not isinstance(item, TextPage) and item.required is not False]
+        return all(item.id in self._answers or self._is_typed(item.id) for item in asked)
+
     @Slot(str, int)
     def rate(self, item: str, value: int) -> None:
         """Choose a point of a scale."""
@@ -363,6 +369,10 @@ class FormScreen(QObject):
         if isinstance(item, Integer):
             return item.input.read(text.strip())
         return text if text.strip() else None
+
+    def _is_typed(self, name: str) -> bool:
+        """Whether something stands in a field that can be an answer."""
+        return self._typed(name) is not None and not self._is_wrong(name)
 
     def _is_wrong(self, name: str) -> bool:
         """Whether something stands in a field that cannot be an answer."""

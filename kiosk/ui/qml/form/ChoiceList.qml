@@ -19,6 +19,8 @@ Flow {
 
     // Large texts on a wide screen leave little room around them.
     readonly property bool narrow: Theme.textSize > 1.15 && width >= 1020 * Theme.unit && !alone
+    // Whether they may stand in the columns that all lists of a wide page share.
+    readonly property bool even: !alone && !dense && !large && width >= 1020 * Theme.unit
     readonly property bool stacked: alone && options.length <= 6
     // Where there is room for it, all are as wide, in rows that are as full; one below the other only on an upright screen.
     readonly property bool tiled: !stacked && !dense && (columns > 1 || width < 1020 * Theme.unit)
@@ -62,10 +64,47 @@ Flow {
         }
         return widths
     }
-    readonly property bool flowing: tiled && width >= 1020 * Theme.unit && filled.length > 0
+    // The same in columns that all lists of the page share: each as many of them as its words need, and the last ones of
+    // a row what is left. So what stands in two rows, or in two lists, begins at the same places.
+    readonly property real gridGap: 12 * Theme.unit
+    readonly property var gridded: {
+        const wishes = []
+        for (let i = 0; i < buttons.count; i++)
+            wishes.push((buttons.itemAt(i) as Choosable)?.implicitWidth ?? 0)
+        for (const count of [6, 12]) {
+            const part = (width - (count - 1) * gridGap) / count
+            const rows = []
+            let left = -1
+            for (const wish of wishes) {
+                const span = Math.min(count, Math.max(1, Math.ceil((wish + gridGap) / (part + gridGap))))
+                if (left < span) {
+                    rows.push([])
+                    left = count
+                }
+                rows[rows.length - 1].push(span)
+                left -= span
+            }
+            if (rows.length >= Math.ceil(options.length / columns))
+                continue
+            const widths = []
+            for (const row of rows) {
+                // The narrowest first, and of two as narrow the last.
+                for (let spare = count - row.reduce((sum, span) => sum + span, 0); spare > 0; spare--)
+                    row[row.lastIndexOf(Math.min(...row))]++
+                let at = 0
+                for (const span of row) {
+                    widths.push(Math.floor((at + span) * (part + gridGap) - gridGap) - Math.floor(at * (part + gridGap)))
+                    at += span
+                }
+            }
+            return widths
+        }
+        return []
+    }
+    readonly property bool flowing: tiled && width >= 1020 * Theme.unit && (gridded.length > 0 || filled.length > 0)
     readonly property real tile: Math.floor((width - (columns - 1) * packed) / columns)
 
-    spacing: flowing ? apart : packed
+    spacing: flowing ? (gridded.length > 0 ? gridGap : apart) : packed
     flow: stacked ? Flow.TopToBottom : Flow.LeftToRight
 
     Repeater {
@@ -86,13 +125,13 @@ Flow {
             focusPolicy: list.several || on || (list.chosen.length === 0 && index === 0) ? Qt.StrongFocus : Qt.ClickFocus
             focus: index === 0
             height: Math.max(implicitHeight, list.tall)
-            width: list.stacked ? list.width : list.flowing ? list.filled[index] : list.tiled ? list.tile : Math.min(implicitWidth, list.width)
+            width: list.stacked ? list.width : list.flowing ? (list.gridded.length > 0 ? list.gridded : list.filled)[index] : list.tiled ? list.tile : Math.min(implicitWidth, list.width)
             words: modelData.text
             font.pixelSize: list.alone ? Theme.body : list.large ? Theme.size(34) : Theme.reading
-            leftPadding: (list.narrow ? 14 : 22) * Theme.unit
-            rightPadding: (list.narrow ? 16 : 30) * Theme.unit
+            leftPadding: (list.narrow ? 14 : list.even ? 20 : 22) * Theme.unit
+            rightPadding: (list.narrow ? 16 : list.even ? 16 : 30) * Theme.unit
             verticalPadding: (list.alone ? 16 : list.narrow ? 3 : 10) * Theme.unit
-            spacing: (list.narrow ? 10 : 16) * Theme.unit
+            spacing: (list.narrow ? 10 : list.even ? 12 : 16) * Theme.unit
             scale: down ? 0.97 : 1
             Accessible.role: list.several ? Accessible.CheckBox : Accessible.RadioButton
             Accessible.name: `${list.label} ${words}`
