@@ -10,7 +10,9 @@ from __future__ import annotations
 
 import os
 import struct
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable
+from functools import lru_cache
 from pathlib import Path
 from typing import BinaryIO
 
@@ -27,10 +29,13 @@ _BRANCH_OF_INDEX = 2
 _BRANCH_OF_TABLE = 5
 """This one holds no content of rows."""
 
+_FREE_HEADER = 4
+"""An unused piece of a page begins with where the next one is, and how long it is itself."""
+
 _TWO_BYTES = 128
 """From this first byte on, a length takes more than one; no length of one byte goes over the page."""
 
-_PAGES_AT_ONCE = 1024
+_PAGES_AT_ONCE = 256
 _LARGEST = 65_536
 _SIZES = {2**power for power in range(9, 17)}
 _MOVES_PAGES = slice(52, 56)
@@ -81,8 +86,12 @@ class Pages:
         """Write zeros over a part of a page, if anything else stands there."""
         if _ZEROS.startswith(page[begin:end]):
             return
-        self.file.seek((number - 1) * self.size + begin)
-        self.file.write(_ZEROS[: end - begin])
+        if sys.platform == "win32":
+            self.file.seek((number - 1) * self.size + begin)
+            self.file.write(_ZEROS[: end - begin])
+        else:
+            # One call to the system instead of two; nearly every page has such bytes the first time.
+            os.pwrite(self.file.fileno(), _ZEROS[: end - begin], (number - 1) * self.size + begin)
 
     def clear(self, number: int, page: bytes) -> None:
         """Clear a page of a tree, and what follows its rows elsewhere; any other page is left alone."""
@@ -115,35 +124,35 @@ class Pages:
             trunk, left = following, left - kept - 1
 
 
-def _unused(page: bytes, at: int, usable: int) -> Iterator[tuple[int, int]]:
-    """Yield where what no row takes begins and ends on a page of a tree, whose header is at ``at``."""
-    free, rows, content = struct.unpack_from(">HHH", page, at + 1)
+def _unused(page: bytes, at: int, usable: int) -> list[tuple[int, int]]:
+    """Return where what no row takes begins and ends on a page of a tree, whose header is at ``at``."""
+    free, rows, content = _THREE_NUMBERS(page, at + 1)
     begin, end = at + _HEADERS[page[at]] + 2 * rows, content or _LARGEST
     if begin > end or end > usable:
         raise IndexError(begin, end)
-    yield begin, end
+    found = [(begin, end)]
     while free:
-        following, length = struct.unpack_from(">HH", page, free)
+        following, length = _TWO_NUMBERS(page, free)
         if free + length > usable or 0 < following < free + length:
             raise IndexError(free, length)
-        # The first bytes say where the next unused piece is, and how long this one.
-        yield free + 4, free + length
+        if length > _FREE_HEADER:
+            found.append((free + _FREE_HEADER, free + length))
         free = following
+    return found
 
 
-def _continued(page: bytes, at: int, usable: int) -> Iterator[tuple[int, int]]:
-    """Yield how many bytes of each long row stand on pages of their own, and the first of those."""
+def _continued(page: bytes, at: int, usable: int) -> list[tuple[int, int]]:
+    """Return how many bytes of each long row stand on pages of their own, and the first of those."""
     kind = page[at]
     if kind == _BRANCH_OF_TABLE:
-        return
+        return []
     before = 4 if kind == _BRANCH_OF_INDEX else 0
     most = usable - 35 if kind == _ROWS_OF_TABLE else (usable - 12) * 64 // 255 - 23
-    least = (usable - 12) * 32 // 255 - 23
+    found: list[tuple[int, int]] = []
     # A length of two bytes that is too much for the page begins with this or more.
     much = _TWO_BYTES | (most + 1 >> 7)
-    (rows,) = struct.unpack_from(">H", page, at + 3)
-    content = page[before:]
-    for place in struct.unpack_from(f">{rows}H", page, at + _HEADERS[kind]):
+    content = page[before:] if before else page
+    for place in _numbers(page[at + 3] << 8 | page[at + 4])(page, at + _HEADERS[kind]):
         if (first := content[place]) < _TWO_BYTES or (first < much and content[place + 1] < _TWO_BYTES):
             continue
         length, row = _number(page, place + before)
@@ -151,9 +160,21 @@ def _continued(page: bytes, at: int, usable: int) -> Iterator[tuple[int, int]]:
             continue
         if kind == _ROWS_OF_TABLE:
             _, row = _number(page, row)
+        least = (usable - 12) * 32 // 255 - 23
         here = least + (length - least) % (usable - 4)
         here = here if here <= most else least
-        yield length - here, int.from_bytes(page[row + here : row + here + 4], "big")
+        found.append((length - here, int.from_bytes(page[row + here : row + here + 4], "big")))
+    return found
+
+
+_TWO_NUMBERS = struct.Struct(">HH").unpack_from
+_THREE_NUMBERS = struct.Struct(">HHH").unpack_from
+
+
+@lru_cache(maxsize=256)
+def _numbers(count: int) -> Callable[[bytes, int], tuple[int, ...]]:
+    """Return what reads so many numbers of two bytes."""
+    return struct.Struct(f">{count}H").unpack_from
 
 
 def _number(page: bytes, at: int) -> tuple[int, int]:
