@@ -21,7 +21,7 @@ from platformdirs import user_cache_path
 from pydantic import ValidationError
 
 from kiosk import UserInputError, unwritable
-from kiosk.config import ConfigModel, ExperimenterConfig, PackageOrigin, Settings, is_path
+from kiosk.config import PackageOrigin, Settings, is_path
 from kiosk.errors import validation_messages
 from kiosk.experiment.labels import fold_name, is_reserved
 from kiosk.experiment.session_config import Source
@@ -283,36 +283,13 @@ def _unpack(package: Package, folder: Path) -> None:
             replace_file(file, content, durable=False)
 
 
-class _LocalRobot(ConfigModel):
-    host: str | None = None
-    port: int | None = None
-    key: str | None = None
-
-
-class _LocalScreen(ConfigModel):
-    display: int | None = None
-
-
-class _LocalVoice(ConfigModel):
-    device: str | None = None
-
-
-class LocalConfig(ConfigModel):
-    """What belongs to one kiosk: its PIN and backups, its robot's address, its screen and its sound device."""
-
-    file_kind = "file of this kiosk's settings"
-
-    experimenter: ExperimenterConfig = ExperimenterConfig()
-    robot: _LocalRobot = _LocalRobot()
-    screen: _LocalScreen = _LocalScreen()
-    voice: _LocalVoice = _LocalVoice()
-
-
 def _with_local(settings: Mapping[str, Any], file: Path) -> dict[str, Any]:
     """Return the settings of a package with those of this kiosk."""
     given = {key: dict(value) if isinstance(value, dict) else value for key, value in settings.items()}
     if not file.exists():
         return given
+    from kiosk.study.kiosk_settings import LocalConfig  # noqa: PLC0415 - few studies are packed
+
     local = LocalConfig.read(file)
     # The PIN and the robot's key are left out of every dump, so that they are recorded nowhere.
     given["experimenter"] = {key: getattr(local.experimenter, key) for key in local.experimenter.model_fields_set}

@@ -8,8 +8,8 @@ import logging
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, replace
+from math import fsum
 from pathlib import Path
-from statistics import fmean
 
 from platformdirs import user_cache_path
 from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QRect, QRectF, QSize, Qt, QUrl
@@ -286,9 +286,14 @@ def _signature(card: QImage) -> str:
 def distances(one: CardDrawing, other: CardDrawing) -> tuple[float, float]:
     """Return how far two drawn cards are from each other in colour and in grey, each 0 to 1."""
     a, b = bytes.fromhex(one.signature), bytes.fromhex(other.signature)
-    colours = fmean(abs(x - y) for x, y in zip(a, b, strict=True)) / 255
-    greys = fmean(abs(_grey(a, at) - _grey(b, at)) for at in range(0, len(a), 3)) / 255
+    colours = _mean([abs(x - y) for x, y in zip(a, b, strict=True)]) / 255
+    greys = _mean([abs(_grey(a, at) - _grey(b, at)) for at in range(0, len(a), 3)]) / 255
     return colours, greys
+
+
+def _mean(values: Sequence[float]) -> float:
+    # As fmean does it, whose module takes a moment to load at every start.
+    return fsum(values) / len(values)
 
 
 def _grey(colours: bytes, at: int) -> float:

@@ -172,8 +172,8 @@ class Panel:
         self._packs: frozenset[tuple[str, str]] = frozenset()
         self._stirred_at = 0
         self._tick: TimerWait | None = None
-        screen.set_language({name: catalogue.text(name) for name in WORDS})
-        screen.list_shortcuts(shortcut_rows(shortcuts(booth.assigner.study.settings.shortcuts), catalogue))
+        self._worded = False
+        """Whether its texts are set: that waits for the first time, as a start has none to spare."""
         screen.wished.connect(self._wish)
         actions.toggle_panel = self.toggle
         actions.changed = self._refresh
@@ -213,6 +213,11 @@ class Panel:
         self._screen.show_alarms(alarm_rows(alarms, self._catalogue))
 
     def _open(self) -> None:
+        if not self._worded:
+            self._worded = True
+            told, keys = self._catalogue, self._booth.assigner.study.settings.shortcuts
+            self._screen.set_language({name: told.text(name) for name in WORDS})
+            self._screen.list_shortcuts(shortcut_rows(shortcuts(keys), told))
         self._write.record(AuditEvent.PANEL_OPENED, {"stage": self._actions.stage.value})
         self._asking.unlocked = True
         self._actions.panel_opened()
