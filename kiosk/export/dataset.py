@@ -93,7 +93,7 @@ def _alone(stored: RecordSource, writing: Layout, flows: Mapping[SessionKind, Pa
 def _with_help(
     stored: RecordSource, writing: PsychDs, flows: Mapping[SessionKind, ParticipantFlow], data: Path, processes: int
 ) -> Iterator[int]:
-    """Do the same with other processes, which work out the tables; this one reads, and writes in the same order."""
+    """Do the same with other processes, which work out the tables; this one writes them in the same order."""
     contents = writing.contents
     task = ExportTask(data, stored.kinds, stored.plan_numbers(), contents.study.shuffled, contents.extras)
     for done, written in enumerate(written_elsewhere(task, stored, processes), 1):

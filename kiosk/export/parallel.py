@@ -58,7 +58,8 @@ class WrittenSession(NamedTuple):
 def written_elsewhere(task: ExportTask, stored: RecordSource, processes: int) -> Iterator[WrittenSession]:
     """Yield all sessions in their order.
 
-    They are read here, at the moment that ``stored`` stands for. Raises StorageError if a process dies.
+    They are as they were at the moment that ``stored`` stands for, though each process reads by itself. Raises
+    StorageError if a process dies.
     """
     sessions = stored.stored()
     waiting: deque[Future[list[WrittenSession]]] = deque()

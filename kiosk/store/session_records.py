@@ -56,10 +56,13 @@ class EventRecord(NamedTuple):
 
 
 class StoredRecord(NamedTuple):
-    """A session as it is stored, before its events and its plan are read."""
+    """A session as it is stored, before its events and its plan are read.
+
+    ``last_seq`` is its last event, 0 if there is none. Where it is read later, events that came meanwhile are left out.
+    """
 
     row: Mapping[str, Any]
-    events: Sequence[LinkedEvent]
+    last_seq: int
     deviations: tuple[Deviation, ...]
 
 
@@ -269,8 +272,11 @@ class RecordSource:
 
     def read(self, stored: StoredRecord) -> SessionRecord:
         """Return a stored session with its events and its plan."""
-        records = tuple(_told(stored.events))
-        plan, unbroken = self._plan(stored.row), is_unbroken(stored.row, stored.events)
+        events = self._events(stored.row["id"], stored.last_seq)
+        if stored.last_seq and not events:
+            raise UserInputError(f"session {stored.row['id']} was deleted while it was read: give the command again")
+        records = tuple(_told(events))
+        plan, unbroken = self._plan(stored.row), is_unbroken(stored.row, events)
         if unbroken:
             self.found_unbroken(stored.row["id"])
         row = {**stored.row, "slots": self._slots(stored.row["allocation_list"])}
@@ -281,17 +287,21 @@ class RecordSource:
 
     def _stored(self, number: int) -> StoredRecord:
         (row,) = self._rows(f"AND session.id = {number}")
-        return StoredRecord(row, self._events(number), self._deviations.get(number, ()))
+        (last_seq,) = self.connection.execute("SELECT max(seq) FROM event WHERE session = ?", (number,)).fetchone()
+        return StoredRecord(row, last_seq or 0, self._deviations.get(number, ()))
 
-    def _events(self, number: int) -> list[LinkedEvent]:
-        query = "SELECT seq, at_ms, origin, type, wall_ms, payload, hash FROM event WHERE session = ? ORDER BY seq"
+    def _events(self, number: int, last_seq: int) -> list[LinkedEvent]:
+        query = "SELECT seq, at_ms, origin, type, wall_ms, payload, hash FROM event"
         try:
-            return self.connection.execute(query, (number,)).fetchall()
+            return self.connection.execute(
+                f"{query} WHERE session = ? AND seq <= ? ORDER BY seq", (number, last_seq)
+            ).fetchall()
         except sqlite3.OperationalError:
             # Where damaged bytes are no text, the archive reads what it can; no hash matches that.
             return [
                 (seq, at_ms, origin, kind, None, payload, b"")
                 for seq, at_ms, kind, origin, payload in self.archive.stored_events(number)
+                if seq <= last_seq
             ]
 
     @cached_property

@@ -22,7 +22,7 @@ from kiosk.export.layouts import PsychDs
 from kiosk.export.log_tables import SoundDevice
 from kiosk.store.database import FILE
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.store.session_records import SessionRecord
+from kiosk.store.session_records import SessionRecord, open_records
 from tests.experiment.driver import Voice, driven_to
 from tests.export.conftest import PARTICIPANTS, rows_of
 from tests.export.psych_ds import issues
@@ -47,6 +47,21 @@ def test_several_processes_write_the_same(
     assert told == Exported(PARTICIPANTS, not_shared=0, under_way=0)
     assert contents(tmp_path / "again") == contents(exported)
     assert seen == [(done, PARTICIPANTS) for done in range(1, PARTICIPANTS + 1)]
+
+
+def test_events_that_were_written_after_the_export_began_are_left_out(stored: Path) -> None:
+    with open_records(stored, frozenset({SessionKind.STUDY})) as records:
+        session = next(records.stored())
+        earlier = records.read(session._replace(last_seq=3))
+    assert [record.seq for record in earlier.records] == [1, 2, 3]
+
+
+def test_a_session_that_was_deleted_after_the_export_began_is_named(stored: Path) -> None:
+    with open_records(stored, frozenset({SessionKind.STUDY})) as records:
+        session = next(records.stored())
+        gone = session._replace(row={**session.row, "id": 999})
+        with pytest.raises(UserInputError, match="session 999 was deleted while it was read"):
+            records.read(gone)
 
 
 def test_an_empty_folder_is_written_into(stored: Path, tmp_path: Path) -> None:
