@@ -57,6 +57,8 @@ class RunMode:
     display: WindowMode = WindowMode.FULL_SCREEN
     pace: ClockMode = ClockMode.WALL
     speed: float = 1.0
+    size: tuple[int, int] = (1920, 1080)
+    """Of a window that does not fill the screen."""
 
 
 class Window:
@@ -124,6 +126,8 @@ class Window:
         self._engine.setInitialProperties(
             {
                 **self.screens.by_name,
+                "width": mode.size[0],
+                "height": mode.size[1],
                 "cardBack": QUrl.fromLocalFile(str(ASSETS / "cards" / "back.svg")),
                 "cardShadow": QUrl.fromLocalFile(str(ASSETS / "cards" / "shadow.svg")),
                 "textSize": settings.screen.text_size,

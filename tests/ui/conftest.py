@@ -28,8 +28,8 @@ from kiosk.ui.app import App
 from kiosk.ui.event_loop import VirtualClock
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import BehaviourProfile, UiDriver, find_item, item_centre, lay_out
-from kiosk.ui.window import Window
-from tests.ui.headless import headless, short
+from kiosk.ui.window import RunMode, Window
+from tests.ui.headless import VIRTUAL, headless, short
 
 
 @pytest.fixture(scope="session")
@@ -127,7 +127,13 @@ MakeBooth = Callable[..., Booth]
 
 
 @pytest.fixture
-def make_booth(qtbot: QtBot, tmp_path: Path) -> Iterator[MakeBooth]:
+def run_mode() -> RunMode:
+    """Return how the booths of these tests run; a module may have its own."""
+    return VIRTUAL
+
+
+@pytest.fixture
+def make_booth(qtbot: QtBot, tmp_path: Path, run_mode: RunMode) -> Iterator[MakeBooth]:
     """Build a booth, with a short study unless told otherwise; all are taken down at the end."""
     with ExitStack() as built:
 
@@ -138,7 +144,7 @@ def make_booth(qtbot: QtBot, tmp_path: Path) -> Iterator[MakeBooth]:
             opened: Callable[[Path], Recorder] = Recorder,
         ) -> Booth:
             data = Path(mkdtemp(dir=tmp_path))
-            kiosk = headless(settings or short(), data, seed=seed, condition=condition, opened=opened)
+            kiosk = headless(settings or short(), data, seed=seed, condition=condition, mode=run_mode, opened=opened)
             app = built.enter_context(kiosk)
             qtbot.waitUntil(lambda: app.window.isExposed() and app.window.isActive())
             return Booth(app, data)

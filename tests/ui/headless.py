@@ -18,6 +18,8 @@ from kiosk.ui.window import ClockMode, RunMode, WindowMode
 from tests.samples import SHORT
 
 VIRTUAL = RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL)
+HALF = RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL, size=(960, 540))
+"""A window of half the usual size, for tests of what happens: a session in it takes a quarter less to draw."""
 
 SMALL = Settings.model_validate(
     {

@@ -193,13 +193,14 @@ class Bench:
         self._shown: dict[str, QQuickItem] = {}
         self._changes, self._at = 0, ""
 
-    def show(self, screen: str, fill: Filling) -> None:
-        """Show this page, and no other."""
+    def show(self, screen: str, fill: Filling, at: str, text_size: float, window: tuple[int, int]) -> None:
+        """Show this page, and no other; a new one is made at this size."""
+        self._changes, self._at = 0, at
         fill(self.screens)
         if screen not in self._shown:
             for other in self._shown.values():
                 other.deleteLater()
-            self._shown = {screen: self._made(screen)}
+            self._shown = {screen: self._made(screen, text_size, window)}
         # Without an event loop, what the page before was made of would stay and be laid out as well.
         QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
 
@@ -212,21 +213,25 @@ class Bench:
         self._control.polishItems()
         return self._changes
 
-    def _made(self, screen: str) -> QQuickItem:
+    def _made(self, screen: str, text_size: float, window: tuple[int, int]) -> QQuickItem:
         """Return a screen, with the room that it has in the kiosk's window."""
         component = QQmlComponent(self._engine)
         component.setData(SOURCES[screen].encode(), QML.as_uri())
-        given = {screen: self.screens.by_name[screen], "kiosk": self.screens.kiosk}
+        given: dict[str, object] = {screen: self.screens.by_name[screen], "kiosk": self.screens.kiosk}
+        # Made without a size, it would be laid out once more, and write of each text that its letters have none.
+        given |= {"width": window[0], "height": window[1], "textSize": text_size}
         if screen == "about":
             given["returning"] = self.screens.by_name["returning"]
-        root = component.createWithInitialProperties(given)
+        root = component.beginCreate(self._engine.rootContext())
         if not isinstance(root, QQuickItem):
             raise TypeError(component.errorString())
-        root.setParent(self._owner)
-        root.setParentItem(self._window.contentItem())
+        component.setInitialProperties(root, given)
         (column,) = _columns(root)
         column.heightChanged.connect(self._count)
         column.widthChanged.connect(self._count)
+        component.completeCreate()
+        root.setParent(self._owner)
+        root.setParentItem(self._window.contentItem())
         return root
 
     def close(self) -> None:
@@ -270,7 +275,7 @@ def main(arguments: list[str]) -> int:
             sizes = TEXT_SIZES[number % options.every :: options.every] if options.every else TEXT_SIZES
             wanted = {told: size for size in sizes if options.only in (told := name_of(page, window, size))}
             if wanted:
-                bench.show(screen, fill)
+                bench.show(screen, fill, *next(iter(wanted.items())), window)
             for told, text_size in wanted.items():
                 most = max(most, bench.lay_out(told, text_size, window))
             laid_out += len(wanted)

@@ -18,11 +18,12 @@ from kiosk.robots.driver import SpokenClip
 from kiosk.robots.voice_packs import PackClips
 from kiosk.store.database import open_for_reading
 from kiosk.store.queries import open_repository
+from kiosk.ui.window import RunMode
 from tests.robots.furhat_fake import FAULTS, FurhatFake, Mode
 from tests.robots.realtime_fake import Mode as Broken
 from tests.robots.realtime_fake import RealtimeFake
 from tests.ui.conftest import Booth, MakeBooth
-from tests.ui.headless import short
+from tests.ui.headless import HALF, short
 from tests.ui.sabotage import Moment, Result, Sabotage, after_loss, replayed, result_of
 
 BROKEN = tuple(mode for mode in Broken if mode not in {Broken.WELL, Broken.NAMELESS})
@@ -30,6 +31,12 @@ CLICKS = 22
 """The helper still speaks after so many."""
 QUICK = dict.fromkeys(("connect_deadline_ms", "answer_deadline_ms", "speech_deadline_min_ms"), 2_000)
 """Short, but longer than the collector holds up every thread of a process that has run thousands of tests."""
+
+
+@pytest.fixture
+def run_mode() -> RunMode:
+    """Return a mode in which sessions are drawn faster: nothing here is about how they look."""
+    return HALF
 
 
 def quick(robot: dict[str, object]) -> Settings:

@@ -16,7 +16,9 @@ from kiosk.experiment.transitions import BEFORE_DECIDING
 from kiosk.store.database import FILE
 from kiosk.store.queries import open_repository
 from kiosk.ui.rehearsal import Rehearsal
+from kiosk.ui.window import RunMode
 from tests.ui.conftest import Booth, MakeBooth
+from tests.ui.headless import HALF
 from tests.ui.small_disk import SmallDisk
 
 SMALL = Settings.model_validate(
@@ -28,6 +30,12 @@ SMALL = Settings.model_validate(
     }
 )
 KEPT = [stage for stage in Stage if stage not in {*BEFORE_DECIDING, Stage.ATTRACT, Stage.OVER}]
+
+
+@pytest.fixture
+def run_mode() -> RunMode:
+    """Return a mode in which sessions are drawn faster: nothing here is about how they look."""
+    return HALF
 
 
 @pytest.fixture

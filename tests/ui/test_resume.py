@@ -21,7 +21,7 @@ from kiosk.store.snapshot import InterruptedSession, read_interrupted_session
 from kiosk.store.verify import verify
 from kiosk.ui.app import App
 from kiosk.ui.rehearsal import Rehearsal
-from tests.ui.headless import headless
+from tests.ui.headless import HALF, headless
 
 SMALL = Settings.model_validate(
     {
@@ -51,7 +51,7 @@ class Until(Rehearsal):
 
 def cut_off(data: Path, stage: Stage, qtbot: QtBot, *, crash: bool) -> None:
     """Leave a session behind in this stage: by a crash, or by closing the kiosk."""
-    with headless(SMALL, data) as app:
+    with headless(SMALL, data, mode=HALF) as app:
         qtbot.waitUntil(app.window.isExposed)
         Until(app, stage).run()
         assert app.runner.stage is stage
@@ -76,7 +76,7 @@ def test_a_session_goes_on_from_the_start_of_its_stage_to_its_end(
 ) -> None:
     cut_off(tmp_path, stage, qtbot, crash=crash)
     cut = read(tmp_path)
-    with headless(SMALL, tmp_path) as app:
+    with headless(SMALL, tmp_path, mode=HALF) as app:
         qtbot.waitUntil(app.window.isExposed)
         app.runner.resume(cut.session, cut.number, cut.past)
         assert app.runner.stage is stage
@@ -97,7 +97,7 @@ def test_a_session_goes_on_from_the_start_of_its_stage_to_its_end(
 def test_a_game_is_not_gone_on_with(tmp_path: Path, qtbot: QtBot) -> None:
     cut_off(tmp_path, Stage.GAME, qtbot, crash=True)
     cut = read(tmp_path)
-    with headless(SMALL, tmp_path) as app:
+    with headless(SMALL, tmp_path, mode=HALF) as app:
         qtbot.waitUntil(app.window.isExposed)
         with pytest.raises(InvalidTransition):
             app.runner.resume(cut.session, cut.number, cut.past)
@@ -106,7 +106,7 @@ def test_a_game_is_not_gone_on_with(tmp_path: Path, qtbot: QtBot) -> None:
 
 
 def test_a_session_that_came_to_its_end_is_not_gone_on_with(tmp_path: Path, qtbot: QtBot) -> None:
-    with headless(SMALL, tmp_path) as app:
+    with headless(SMALL, tmp_path, mode=HALF) as app:
         qtbot.waitUntil(app.window.isExposed)
         Rehearsal(app, 1).run()
         cut = read(tmp_path)

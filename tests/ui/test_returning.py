@@ -18,7 +18,7 @@ from kiosk.ui.app import App
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import BehaviourProfile, cut_texts
 from tests.ui.conftest import Booth
-from tests.ui.headless import SMALL, headless
+from tests.ui.headless import HALF, SMALL, headless
 
 LINK = '[[consent.purposes]]\nid = "return"\nrequired = false\ntext = "You may link my visits."\n\n'
 
@@ -48,7 +48,7 @@ def visit(study: Settings, tmp_path: Path) -> Visit:
     """Return what has one visitor come to a kiosk that was started anew."""
 
     def visit(seed: int, **more: object) -> Rehearsal:
-        with headless(study, tmp_path / "data", condition=None) as app:
+        with headless(study, tmp_path / "data", condition=None, mode=HALF) as app:
             rehearsal = Rehearsal(app, seed, visitor=BehaviourProfile(links=True, **more))  # type: ignore[arg-type]
             rehearsal.run()
             return rehearsal
@@ -81,7 +81,7 @@ def test_two_visits_are_of_one_participant_and_take_one_slot(visit: Visit, tmp_p
 @pytest.fixture
 def asked(study: Settings, tmp_path: Path, qtbot: QtBot) -> object:
     """Provide a booth on whose about page the visitor said that they were here before."""
-    with headless(study, tmp_path / "data", condition=None) as app:
+    with headless(study, tmp_path / "data", condition=None, mode=HALF) as app:
         qtbot.waitUntil(lambda: app.window.isExposed() and app.window.isActive())
         booth = Booth(app, tmp_path / "data")
         booth.click("start-en")

@@ -16,10 +16,17 @@ from kiosk.game import Position
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.ui.session_runner import ERROR_SCREEN_MS
+from kiosk.ui.window import RunMode
 from tests.ui.conftest import Booth, MakeBooth
-from tests.ui.headless import short
+from tests.ui.headless import HALF, short
 
 QUICK = short(idle_ms={"game": 3_000, "still_there": 1_000})
+
+
+@pytest.fixture
+def run_mode() -> RunMode:
+    """Return a mode in which sessions are drawn faster: nothing here is about how they look."""
+    return HALF
 
 
 def refuse(self: Recorder, events: Sequence[Event]) -> None:  # noqa: ARG001 - the recorder's signature
