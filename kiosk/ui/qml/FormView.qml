@@ -60,17 +60,23 @@ PageFrame {
     readonly property bool calm: accompanied && !tight && Theme.textSize <= 1.15 && form.items.length <= 3
         && form.items.every(item => ["integer", "single", "text"].includes(item.kind) && !item.exempts)
 
+    // Whether a number stands beside its text: an upright screen's cards are broad enough for both.
+    function inline(item: var): bool {
+        return upright && !alone && Theme.textSize <= 1.15 && item.kind === "integer" && !item.exempts
+            && letters.advanceWidth(item.text) * Theme.size(38) / 100 + 470 * Theme.unit <= column - 2.4 * Theme.gap
+    }
     // Whether they stand beside the number in its card, on a wide screen whose helper stands beside the page.
     readonly property bool upright: width < height
     readonly property bool strip: {
         const field = keyboard.field
-        if (!(accompanied || upright && Theme.textSize <= 1.15) || alone || field === null || !field.digits || field.minus || mirrored)
+        if (!accompanied || alone || field === null || !field.digits || field.minus || mirrored)
             return false
         const box = card(field)
-        return box !== null && box.width - box.taken - (upright ? 1.8 : 2.4) * Theme.gap >= stripWidth
+        return box !== null && box.height >= stripHeight && box.width - box.taken - 1.6 * Theme.gap >= stripWidth
     }
     readonly property bool mirrored: Theme.mirrored
-    readonly property real stripWidth: (upright ? 485 : 525) * Theme.unit
+    readonly property real stripWidth: 535 * Theme.unit
+    readonly property real stripHeight: 197 * Theme.unit
     // Whether a few ratings share an upright page with a line to be touched: their texts have two lines each.
     readonly property bool mixed: upright && !alone && Theme.textSize <= 1.15 && form.items.length < 5 && form.items.some(item => scales(item))
         && form.items.some(item => item.kind === "slider") && form.items.every(item => scales(item) || item.kind === "slider")
@@ -286,7 +292,9 @@ PageFrame {
                     textShare: view.textShare
                     headed: !view.repeats(index)
                     leastLines: view.mixed ? 2 : view.mostLines
-                    crowded: view.strip && view.upright
+                    inline: view.inline(modelData)
+                    // The keys of a number come into its card and move nothing.
+                    least: view.calm && modelData.kind === "integer" && Theme.screenKeys !== "never" ? view.stripHeight + 24 * Theme.unit : 0
                     onEntered: field => keyboard.field = field
                 }
             }

@@ -23,8 +23,10 @@ Item {
     property bool own: false
     // How many lines its text has at least, so that the cards of a page are as high.
     property int leastLines: 1
-    // Whether the keys of a number stand in this page's cards, with little room for anything else.
-    property bool crowded: false
+    // Whether a number stands beside its text, at the end of the card.
+    property bool inline: false
+    // How high it is at least, as for keys that come into it.
+    property real least: 0
     // How large its text is then.
     property real rowText: Theme.body
     // How much of the row is its text's.
@@ -41,15 +43,15 @@ Item {
     // How much of what can be added to the distances of this page is added, from 0 to 1.
     property real loosened: 0
     // How high it is without that, and how much can be added.
-    readonly property real plain: head + told.height + (way.active ? usualSpacing + way.height : 0) + 2 * usualMargin
+    readonly property real plain: Math.max(least, head + (inline ? Math.max(told.height, way.height) : told.height + (way.active ? usualSpacing + way.height : 0)) + 2 * usualMargin)
     readonly property real addable: alone || beside ? 0 : 32 * Theme.unit
     // Where its text and a number beside each other end, from the left.
-    readonly property real taken: Math.max(question.contentWidth, (large ? (way.item as NumberField)?.core : (way.item as NumberField)?.width) ?? 0) + 1.2 * Theme.gap
+    readonly property real taken: Math.max(question.contentWidth, (way.item as NumberField)?.width ?? 0) + 1.2 * Theme.gap
     readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : airy ? 18 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
     readonly property real usualMargin: alone ? 0 : (beside ? dense ? 9 : own ? 18 : 20 : dense ? 8 : tight ? 10 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
     // Letters have some air above them already; what stands below them does not.
-    readonly property real raised: alone || beside || dense ? 0 : 4 * Theme.unit
+    readonly property real raised: alone || beside || inline || dense ? 0 : 4 * Theme.unit
     readonly property var ways: ({
         likert: points, differential: points, pictures: points, slider: line, single: choice, multiple: choice,
         integer: number, text: letters, page: null
@@ -92,7 +94,7 @@ Item {
     // The words for the ends stand above the first card of a table.
     readonly property real head: beside && headed && !own ? ((way.item as PointScale)?.words ?? 0) + 8 * Theme.unit : 0
 
-    height: head + content.height + 2 * margin
+    height: Math.max(least, head + content.height + 2 * margin)
 
     Rectangle {
         anchors { fill: parent; topMargin: box.head }
@@ -113,12 +115,12 @@ Item {
             readonly property real scaled: (way.item as PointScale)?.size ?? 0
             // Rows of one line and of two are as high; with words for its ends it is as high as a scale and a line of words.
             readonly property real middle: Math.max(box.own ? 98 * Theme.unit + 1.37 * Theme.size(28) : scaled, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
-            height: box.beside ? 2 * middle : told.height + (way.active ? content.spacing + way.height : 0)
+            height: box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : told.height + (way.active ? content.spacing + way.height : 0)
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.beside ? asked.middle - height / 2 : 0
-                width: box.beside ? box.textShare * asked.width : asked.width
+                y: box.beside ? asked.middle - height / 2 : box.inline ? (asked.height - height) / 2 : 0
+                width: box.beside ? box.textShare * asked.width : box.inline ? asked.width - 470 * Theme.unit : asked.width
                 spacing: content.spacing
                 Balanced {
                     id: question
@@ -149,8 +151,8 @@ Item {
             Loader {
                 id: way
                 readonly property real room: box.beside ? (0.96 - box.textShare) * asked.width : asked.width
-                x: Theme.across(box.beside ? asked.width - room : 0, width, asked.width)
-                y: box.own ? (asked.height - height) / 2 : box.beside ? asked.middle - height + asked.scaled / 2 : told.height + content.spacing
+                x: Theme.across(box.beside ? asked.width - room : box.inline ? asked.width - width : 0, width, asked.width)
+                y: box.own || box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - height + asked.scaled / 2 : told.height + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
@@ -278,7 +280,7 @@ Item {
         id: number
         NumberField {
             room: content.width
-            crowded: box.crowded
+            crowded: box.inline
             item: box.item.id
             form: box.form
             label: box.item.text

@@ -25,7 +25,9 @@ Rectangle {
     property bool capitals: false
     property string shown: "letters"
     readonly property bool numbers: field !== null && field.digits
-    readonly property var rows: numbers && strip ? ["12345", "67890"] : numbers ? ["123", "456", "789", `${field?.minus ? "-" : " "}0⌫`] : form.keys[shown]
+    // Whether a number's keys stand in two rows: in its card, or across an upright screen's width.
+    readonly property bool flat: numbers && (strip || broad && !field?.minus)
+    readonly property var rows: flat ? ["12345", "67890"] : numbers ? ["123", "456", "789", `${field?.minus ? "-" : " "}0⌫`] : form.keys[shown]
     readonly property int longest: Math.max(10, ...rows.map(row => row.length))
     readonly property real gap: 8 * Theme.unit
     readonly property real room: parent.width
@@ -33,14 +35,14 @@ Rectangle {
     readonly property bool broad: parent.width < parent.height && Window.height - parent.height > 400 * Theme.unit
     // Or a wide screen's margin beside it.
     readonly property bool roomy: Window.width - parent.width >= 440 * Theme.unit
-    readonly property real keyWidth: numbers ? (strip ? (parent.width < parent.height ? 60 : 68) : broad ? 150 : roomy ? 108 : 80) * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
-    readonly property real keyHeight: (numbers ? (strip ? 64 : roomy ? 76 : 68) : 60) * Theme.unit
+    readonly property real keyWidth: numbers ? (strip ? 70 : flat ? 118 : broad ? 150 : roomy ? 108 : 80) * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
+    readonly property real keyHeight: (numbers ? (strip ? 80 : flat ? 104 : roomy ? 76 : 68) : 60) * Theme.unit
 
     width: numbers ? keys.width + 1.2 * Theme.gap : parent.width
     height: keys.height + 1.2 * Theme.gap
     x: numbers ? place.x : 0
     y: numbers ? place.y : parent.height - height
-    radius: numbers ? (strip ? height / 4 : 1.6 * Theme.radius) : 0
+    radius: numbers ? (strip ? 1.4 * Theme.radius : flat ? height / 6 : 1.6 * Theme.radius) : 0
     color: Theme.sand
     visible: field !== null
     onFieldChanged: {
@@ -69,13 +71,13 @@ Rectangle {
         contentItem: Text {
             textFormat: Text.PlainText
             text: key.drawn ? "" : key.words
-            font { pixelSize: Math.min(Theme.body, 0.56 * keyboard.keyHeight); bold: key.pressedIn }
+            font { pixelSize: Math.min(keyboard.flat && !keyboard.strip ? Theme.size(42) : Theme.body, 0.56 * keyboard.keyHeight); bold: key.pressedIn }
             color: key.pressedIn ? Theme.white : Theme.ink
             horizontalAlignment: Text.AlignHCenter
             verticalAlignment: Text.AlignVCenter
         }
         background: Rectangle {
-            radius: keyboard.numbers ? height / 2 : 10 * Theme.unit
+            radius: keyboard.flat ? Math.min(width, height) / 3 : keyboard.numbers ? height / 2 : 10 * Theme.unit
             color: key.pressedIn ? Theme.sea : Theme.white
             border { color: key.hovered ? Theme.sea : Theme.edge; width: 2 * Theme.unit }
             Backspace {
@@ -98,7 +100,7 @@ Rectangle {
     Grid {
         id: keys
         anchors.centerIn: parent
-        columns: keyboard.strip && keyboard.numbers ? 2 : 1
+        columns: keyboard.flat ? 2 : 1
         spacing: keyboard.gap
         horizontalItemAlignment: Grid.AlignHCenter
         Column {
@@ -136,7 +138,7 @@ Rectangle {
         }
         Flow {
             id: others
-            readonly property real wish: keyboard.numbers && keyboard.strip ? 116 * Theme.unit : keyboard.numbers ? 3 * keyboard.keyWidth + 2 * keyboard.gap : keyboard.room - 2 * Theme.gap
+            readonly property real wish: keyboard.flat ? (keyboard.strip ? 116 : 190) * Theme.unit : keyboard.numbers ? 3 * keyboard.keyWidth + 2 * keyboard.gap : keyboard.room - 2 * Theme.gap
             width: keyboard.numbers ? wish : Math.min(wish, implicitRow)
             readonly property real implicitRow: {
                 let sum = -spacing
@@ -178,7 +180,7 @@ Rectangle {
                 onClicked: keyboard.field.type(".")
             }
             ScreenKey {
-                visible: !keyboard.numbers || keyboard.strip
+                visible: !keyboard.numbers || keyboard.flat
                 objectName: "key-delete"
                 width: drawn ? others.wish : Math.max(keyboard.keyWidth, implicitWidth)
                 drawn: keyboard.numbers
