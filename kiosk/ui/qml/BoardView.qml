@@ -394,6 +394,7 @@ FocusScope {
                 picture: place.picture
                 up: place.up
                 shade: 1 - place.rest
+                prepares: view.prepares
                 // Closed cards step back while a tap would not count, unless they are meant.
                 opacity: view.speaking && !place.up && !place.marked ? Theme.held : 1
                 Behavior on opacity { NumberAnimation { duration: Theme.motion } }

@@ -1,4 +1,5 @@
 // One card, turned over its upright axis: it narrows to its edge, lifts a little, and shows its other side.
+pragma ComponentBehavior: Bound
 import QtQuick
 import "."
 
@@ -11,11 +12,20 @@ Item {
     required property bool up
     // How much of the shadow is seen: a card that lies flat has none.
     property real shade: 1
+    // Whether a picture that is wanted in another size is loaded beside other things; the old one is seen until then.
+    property bool prepares: false
 
     // A card is a square. Its pictures depend on its width alone: a change of both sides would load each of them twice.
     // 0 closed .. 1 open; the side changes half way.
     property real turn: up ? 1 : 0
     Behavior on turn { NumberAnimation { duration: Theme.motion * 1.5; easing.type: Easing.InOutSine } }
+
+    component Side: Image {
+        property bool loaded: false
+        onStatusChanged: if (status === Image.Ready) loaded = true
+        asynchronous: loaded && card.prepares
+        retainWhileLoading: true
+    }
 
     // How wide the card is seen, and how far it has left the table.
     readonly property real narrow: Math.max(0.015, Math.abs(Math.cos(turn * Math.PI)))
@@ -26,7 +36,7 @@ Item {
 
     scale: 1 + 0.07 * lift
 
-    Image {
+    Side {
         anchors { centerIn: parent; verticalCenterOffset: card.height * 0.05 * card.lift }
         width: parent.width * 1.1
         height: parent.height * 1.1
@@ -49,7 +59,7 @@ Item {
         border { color: "#B79F6B"; width: 1 }
     }
     // Both sides are there from the start, so that no turn waits for a picture.
-    Image {
+    Side {
         anchors.fill: parent
         visible: card.turn < 0.5
         source: card.back
@@ -59,7 +69,7 @@ Item {
             Translate { x: card.lean }
         ]
     }
-    Image {
+    Side {
         anchors.fill: parent
         visible: card.turn >= 0.5
         source: card.picture
