@@ -17,6 +17,7 @@ from hypothesis import HealthCheck, settings
 # A machine that is slow or has company must not fail a test.
 settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("untimed")
+settings.register_profile("fast", settings.get_profile("untimed"), max_examples=50)
 
 SLOW = (
     *("ui", "packaging", "plugins", "analysis", "training", "bench", "supervisor", "export"),
@@ -51,6 +52,9 @@ def pytest_configure(config: pytest.Config) -> None:
 
     The commands read the folder when they are imported, so a fixture would come too late.
     """
+    if config.option.markexpr == "not slow":
+        # Half of the examples that all tests try.
+        settings.load_profile("fast")
     config.stash[HOME] = TemporaryDirectory(prefix="recollect-tests-")
     os.environ["XDG_DATA_HOME"] = config.stash[HOME].name
     if "PYTEST_XDIST_WORKER" not in os.environ:

@@ -24,7 +24,7 @@ from kiosk.export.layouts import PsychDs
 from kiosk.robots.audio import Clip
 from kiosk.study.wording_drafts import Candidate, Draft, State
 from kiosk.training.simulated_players import PEOPLE_FORMAT
-from tests.cli.test_readme import DECK, LEFT_AT_ONCE
+from tests.cli.test_readme import DECK, LEFT_AT_ONCE, rows
 from tests.experiment.driver import Driver, at_random
 from tests.export.visitors import store, visitor
 from tests.forked import ANALYSES, PLAYED, PROGRAM, LoadedProgram
@@ -157,6 +157,7 @@ def blocks() -> Iterator[Block]:
     texts = {page.relative_to(ROOT).as_posix(): page.read_text("utf-8") for page in PAGES}
     every = texts.pop("docs/reference/commands.md")
     elsewhere = {command for text in texts.values() for command in typed_commands(text)}
+    elsewhere |= {row.removeprefix("recollect ") for row in rows()}
     yield from (
         Block(name, tuple(typed))
         for name, text in texts.items()
@@ -296,13 +297,11 @@ def test_every_command_of_a_page_works_as_it_is_printed(
 @pytest.mark.parametrize("command", RUN_ONCE)
 def test_what_many_pages_have_you_type_works(command: str, desk: Desk, loaded: LoadedProgram) -> None:
     assert sum(command in block.commands for block in BLOCKS) > 1
-    done = typed(command, desk, loaded, PROGRAM)
+    done = typed(command, desk, loaded)
     assert (done.returncode in {0, 1}, "Traceback" in done.stderr) == (True, False), done.stderr
 
 
-def typed(
-    command: str, desk: Desk, loaded: LoadedProgram, program: str | None = None
-) -> subprocess.CompletedProcess[str]:
+def typed(command: str, desk: Desk, loaded: LoadedProgram) -> subprocess.CompletedProcess[str]:
     """Run a command of a page with what is yours to fill in, and short work."""
     given = {"7KQ2M-XR4T4": desk.code, "FILE": "items.csv", "age1...": AGE_KEY}
     words = [given.get(word, word).replace("~", str(desk.home)) for word in shlex.split(command)]
@@ -310,7 +309,7 @@ def typed(
     yes = ("--yes",) if words[0] == "withdraw" else ()
     opens = words[0] in {"run", "replay"} or words[:2] == ["study", "preview"]
     has_a_window = opens and WITHOUT_A_WINDOW.isdisjoint(words)
-    how = program or (LEFT_AT_ONCE if has_a_window else CHECKED if words[0] == "check" else PROGRAM)
+    how = LEFT_AT_ONCE if has_a_window else CHECKED if words[0] == "check" else PROGRAM
     if "--host" not in words:
         return loaded.run([*words, *less, *yes], desk.folder, desk.environment, "258013\n258013\n", how)
     with FurhatFake(character_ms=2) as robot:

@@ -42,6 +42,8 @@ LESS = {
     "rehearse": ("--study", "smallest.toml"),
 }
 """What makes long work short; nothing else of a row is changed, but for what stands in capitals."""
+LESS_OF_A_REPLAY = ("--speed", "32")
+"""The same for a replay that is looked at later."""
 
 TRIED_BY_ROWS = {"rehearse", "replay", "check", "run", "report", "status"}
 """Commands of a tutorial that take long or need a kiosk; the rows try all but the report."""
@@ -171,7 +173,8 @@ def test_every_row_works_as_it_is_printed(row: str, newcomer: Newcomer) -> None:
         return
     has_a_window = command in {"", "replay"}
     how = LEFT_AT_ONCE if has_a_window else PROGRAM
-    done = newcomer.run([*filled_in(newcomer, arguments), *LESS.get(command, ())], how)
+    less = LESS_OF_A_REPLAY if {"--film", "--headless"} & set(arguments) and command == "replay" else ()
+    done = newcomer.run([*filled_in(newcomer, arguments), *LESS.get(command, less)], how)
     assert "Traceback" not in done.stderr
     if command == "status":
         # No kiosk runs here: either none ever has, or one that was left.
