@@ -1,4 +1,4 @@
-"""The command `check`: every preflight check with a remedy on each line."""
+"""Every preflight check, with a remedy on each line."""
 
 from __future__ import annotations
 
@@ -24,16 +24,7 @@ from kiosk import UserInputError, __version__, program
 from kiosk.assistance.policy import load_action
 from kiosk.cli.composition import code_commit, code_made, read_settings
 from kiosk.cli.log import LOG, LOG_BYTES, LOGS_KEPT
-from kiosk.cli.options import (
-    ProgressCallback,
-    data_option,
-    json_option,
-    progress_bar,
-    robot_host_option,
-    robot_port_option,
-    site_option,
-    study_option,
-)
+from kiosk.cli.options import ProgressCallback, progress_bar
 from kiosk.cli.terminal import console
 from kiosk.config import Settings
 from kiosk.experiment.booth_status import FILE, BoothStatus
@@ -356,22 +347,9 @@ _MARKS = {Severity.OK: "OK", Severity.WARNING: "WARN", Severity.ERROR: "FAIL"}
 _STYLES = {Severity.OK: "green", Severity.WARNING: "yellow", Severity.ERROR: "bold red"}
 _FIRST = (Severity.ERROR, Severity.WARNING, Severity.OK)
 LEAST_WIDTH = 100
-WATCH_S = 10
-"""Seconds between two looks at the booth."""
 
 
-@click.command()
-@data_option
-@study_option
-@site_option
-@robot_host_option
-@robot_port_option
-@click.option("--say", is_flag=True, help="Say a test sentence in every language, so that you hear the voice.")
-@click.option("--watch", is_flag=True, help=f"Check again every {WATCH_S} s until Ctrl+C, and say what has changed.")
-@json_option
-@click.pass_context
-def check_command(
-    context: click.Context,
+def check_booth(
     data: Path,
     study: Path | None,
     site: str,
@@ -379,26 +357,23 @@ def check_command(
     robot_port: int | None,
     *,
     say: bool,
-    watch: bool,
+    watch_s: float | None,
     as_json: bool,
-) -> None:
-    """Try everything that a booth needs, and say what to do.
+) -> int:
+    """Try everything that a booth needs, tell it, and return the exit code; ``watch_s`` is the time between two looks.
 
-    What fails comes first. The exit code is 1 if no session can be held. Nothing is shown or kept, and nothing is heard
-    without --say.
+    Raises UserInputError for what is wrong in the study, after the results.
     """
-    if watch and say:
-        raise click.UsageError("choose --watch or --say: a sentence every few seconds is no help")
     look = partial(_look_at_booth, data, checked_site(site), study, robot_host, robot_port)
     booth, found = look(as_json=as_json)
     if say:
         found = (*found, *say_all(booth))
     _tell(found, as_json=as_json)
-    if watch:
-        click.echo(f"Looking again every {WATCH_S} s until Ctrl+C.", err=True)
+    if watch_s is not None:
+        click.echo(f"Looking again every {watch_s:g} s until Ctrl+C.", err=True)
     try:
-        while watch:
-            _wait(WATCH_S)
+        while watch_s is not None:
+            _wait(watch_s)
             before, (booth, found) = found, look(as_json=as_json)
             if changed := _changes(before, found):
                 _tell(found, as_json=as_json, changed=changed)
@@ -409,7 +384,7 @@ def check_command(
     broken = [each.message for each in found if each.severity is Severity.ERROR and each.name.startswith(nouns)]
     if booth.faults or broken:
         raise UserInputError(*dict.fromkeys((*booth.faults, *broken)))
-    context.exit(0 if is_ready(found) else NOT_READY)
+    return 0 if is_ready(found) else NOT_READY
 
 
 def is_ready(found: Iterable[CheckResult]) -> bool:

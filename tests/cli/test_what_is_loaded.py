@@ -13,7 +13,7 @@ HEAVY = {
 }
 QUICK = (
     *("kiosk.cli.main", "kiosk.cli.guide", "kiosk.cli.run", "kiosk.cli.sessions", "kiosk.cli.status"),
-    "kiosk.ui.startup_splash",
+    *("kiosk.cli.check_command", "kiosk.ui.startup_splash"),
 )
 
 
