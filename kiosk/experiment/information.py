@@ -29,7 +29,20 @@ Paragraphs = Annotated[tuple[Text, ...], Field(min_length=1, max_length=8, stric
 
 
 Sign = Literal[
-    "helper", "cards", "clock", "questions", "no_name", "delete", "play", "lock", "compare", "letter", "camera"
+    "helper",
+    "person",
+    "cards",
+    "clock",
+    "questions",
+    "no_name",
+    "delete",
+    "play",
+    "lock",
+    "compare",
+    "seen",
+    "chance",
+    "letter",
+    "camera",
 ]
 """A drawing beside a line."""
 

@@ -210,7 +210,9 @@ def _information(sheet: Information, words: _Words) -> Iterator[str]:
     yield f"<h2>{words('information')}, {words('version')} {escape(sheet.version)}</h2>"
     for page in (sheet.about, sheet.consent, sheet.debrief):
         points = "".join(f"<p><b>{escape(each)}</b></p>" for each in page.points)
-        yield f"<h3>{escape(page.title)}</h3>{points}" + "".join(f"<p>{escape(each)}</p>" for each in page.paragraphs)
+        yield f"<h3>{escape(page.title)}</h3>{points}" + "".join(
+            f"<p>{escape(each).replace(chr(10), '<br/>')}</p>" for each in page.paragraphs
+        )
         if page is sheet.consent:
             marks = (f"{each.text}{'' if each.required else ' *'}" for each in sheet.consent.purposes)
             listed = "".join(f"<li>{escape(each)}</li>" for each in marks)

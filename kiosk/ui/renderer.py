@@ -88,7 +88,6 @@ class Renderer:
         self.screens.kiosk.begin(plan.languages, plan.language, plan.settings.consent)
         self.screens.debrief.give_contact(plan.settings.consent.contact)
         self.screens.debrief.give_summary(next(iter(plan.information.about.paragraphs), ""))
-        self.screens.debrief.compare(plan.settings.randomisation.target_n.keys())
         self._is_rated = False
         if self.embodiments is not None:
             self.embodiments.begin_session(plan.language)

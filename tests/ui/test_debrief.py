@@ -154,12 +154,6 @@ def test_the_thanks_show_the_pairs_that_the_visitor_found_or_else_some_cards(boo
     assert len(pictures() - {"back", "shadow", "cat", "owl"}) <= 1
 
 
-@pytest.mark.parametrize("names", [{"tom", "notom"}, {"tom"}, {"tom", "notom", "no_assistance"}])
-def test_only_the_papers_two_conditions_have_a_picture(booth: Booth, names: set[str]) -> None:
-    booth.app.screens.debrief.compare(names)
-    assert booth.app.screens.debrief.property("compares") is (names == {"tom", "notom"})
-
-
 def test_the_helper_says_the_last_line_where_it_stands_beside_the_page(booth: Booth) -> None:
     def said() -> set[bool]:
         texts = [item for item in items(booth.app.window.contentItem()) if item.property("text") == "It is no test."]

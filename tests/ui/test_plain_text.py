@@ -306,7 +306,9 @@ def test_questions_options_ends_and_hints_stand_there_as_they_were_written(windo
             assert wanted <= seen(window).keys(), moment
         elif moment in ("about", "consent", "debrief"):
             page = getattr(study.plans[0].information, moment)
-            wanted = {page.title, *page.paragraphs, *(purpose.text for purpose in getattr(page, "purposes", ()))}
+            # A heading stands apart from what is below it.
+            read = (part for paragraph in page.paragraphs for part in paragraph.split("\n"))
+            wanted = {page.title, *read, *(purpose.text for purpose in getattr(page, "purposes", ()))}
             assert wanted <= seen(window).keys(), moment
 
 

@@ -35,19 +35,14 @@ PageFrame {
     // Beside the helper each line is a card with a large drawing, where the page has room for that.
     readonly property bool upright: width < height
     readonly property bool framed: (upright ? Theme.textSize <= 1.15 : aside !== "") && read.every(line => line.sign !== "") && framedSize > 0
-    readonly property real framedSize: (upright ? [46, 44, 42, 40, 38, 36] : [44, 40, 38]).map(Theme.size).find(size => fitsFramed(size)) ?? 0
-    readonly property real badge: (upright ? 150 : 168) * Theme.unit
-    readonly property real margin: 1.5 * Theme.gap
-    // On an upright screen the cards are as high as each other, and take the page.
-    readonly property real cardHigh: Math.min(400 * Theme.unit, (0.98 * room - (read.length - 1) * Theme.gap) / Math.max(1, read.length))
+    readonly property real framedSize: (upright ? [52, 50, 48, 46, 44, 42, 40, 38, 36] : [44, 42, 40, 38, 36]).map(Theme.size).find(size => fitsFramed(size)) ?? 0
+    // The cards are as high as each other, and take the page; their drawings are as large as that leaves.
+    readonly property real cardHigh: Math.min((upright ? 400 : 260) * Theme.unit, (0.98 * room - (read.length - 1) * Theme.gap) / Math.max(1, read.length))
+    readonly property real badge: Math.min((upright ? 150 : 168) * Theme.unit, 0.74 * cardHigh)
+    readonly property real margin: Math.min(1.5 * Theme.gap, 0.2 * cardHigh)
     function fitsFramed(size: real): bool {
-        if (upright)
-            return read.every(line => Math.max(badge, Math.ceil(letters.advanceWidth(line.text) * size / 100
-                / ((column - badge - 2 * margin - Theme.gap) * 0.88)) * 1.5 * size) + 1.2 * margin <= cardHigh)
-        const wide = (column - badge - 2 * margin - Theme.gap) * 0.88
-        const tall = read.reduce((sum, line) => sum + 2 * margin
-            + Math.max(badge, Math.ceil(letters.advanceWidth(line.text) * size / 100 / wide) * 1.5 * size), 0)
-        return tall + read.length * close <= room
+        return badge >= 80 * Theme.unit && read.every(line => Math.ceil(letters.advanceWidth(line.text) * size / 100
+            / ((column - badge - 2 * margin - Theme.gap) * 0.94)) * 1.5 * size + 0.16 * cardHigh <= cardHigh)
     }
     function fits(size: real): bool {
         return tall(size) + read.length * close <= 0.92 * room
@@ -60,12 +55,12 @@ PageFrame {
 
     ScrollPane {
         id: pane
-        y: view.framed ? view.upright ? 0 : Math.max(0, Math.min((view.room - height) / 2, Theme.gap)) : view.sink(height)
+        y: view.framed ? 0 : view.sink(height)
         width: parent?.width ?? 0
         room: view.room
         more: view.words["scroll-more"]
         // Further apart where the page has room for it.
-        spacing: view.framed ? (view.upright ? 1 : 1.5) * Theme.gap : Math.max(view.close, Math.min(3 * Theme.gap, (0.92 * view.room - view.tall(view.size)) / Math.max(1, view.read.length)))
+        spacing: view.framed ? Theme.gap : Math.max(view.close, Math.min(3 * Theme.gap, (0.92 * view.room - view.tall(view.size)) / Math.max(1, view.read.length)))
         Repeater {
             model: view.read
             Rectangle {
@@ -73,7 +68,7 @@ PageFrame {
                 required property int index
                 required property var modelData
                 width: parent?.width ?? 0
-                height: view.framed && view.upright ? view.cardHigh : line.height + (view.framed ? 2 * view.margin : 0)
+                height: view.framed ? view.cardHigh : line.height
                 radius: Theme.radius
                 color: view.framed ? Theme.white : "transparent"
                 border { color: Theme.edge; width: view.framed ? 3 * Theme.unit : 0 }

@@ -49,7 +49,7 @@ PageFrame {
     readonly property real further: !signed || width > height ? 0
         : Math.max(0, Math.min(Theme.gap, (0.92 * room - estimate(size, noted, apart)) / read.length))
     function lines(text: string, size: real, room: real): int {
-        return Math.ceil(letters.advanceWidth(text) * size / 100 / room)
+        return text.split("\n").reduce((sum, part) => sum + Math.ceil(letters.advanceWidth(part) * size / 100 / room), 0)
     }
 
     aside: sayable(debrief.lines)
@@ -88,7 +88,7 @@ PageFrame {
                         id: part
                         required property int index
                         width: texts.halved ? (texts.width - texts.spacing) / 2 : texts.width
-                        spacing: (view.signed ? view.apart : 1) * Theme.gap + view.further
+                        spacing: (view.signed ? view.apart : view.room < 720 * Theme.unit ? 0.6 : 1) * Theme.gap + view.further
                         Repeater {
                             model: part.index === 0 ? texts.lines.slice(0, texts.first) : texts.lines.slice(texts.first)
                             SignedLine {

@@ -320,14 +320,6 @@ Window {
         marks: boardView.visible && boardView.marks
         marked: helper.mapFromItem(boardView, boardView.marked.x, boardView.marked.y)
     }
-    // What was compared, in a picture.
-    TwoHelpers {
-        x: helper.x + (helper.width - 2 * side - spacing) / 2
-        y: helper.y + Theme.gap
-        width: helper.width
-        room: Math.min(250 * Theme.unit, helper.free - 2 * Theme.gap)
-        visible: debriefPage.shown && root.accompanied && root.debrief.compares && room >= 170 * Theme.unit && !root.kiosk.paused
-    }
     // Above the assistant; beside a robot and on an upright screen at the bottom, where a sentence leaves room.
     Corner {
         id: corner

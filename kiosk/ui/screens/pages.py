@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence, Set
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -11,7 +11,6 @@ from PySide6.QtCore import Property, QObject, QUrl, Signal, Slot
 from PySide6.QtQml import QmlElement
 
 from kiosk.assistance.wording import Catalogue
-from kiosk.experiment.condition import Condition
 from kiosk.experiment.information import ConsentPage, Page
 from kiosk.units import MS_PER_SECOND, SECONDS_PER_MINUTE
 
@@ -190,7 +189,7 @@ class DebriefScreen(PageScreen):
         super().__init__(parent)
         self._catalogue = catalogue
         self._code = self._contact = self._summary = ""
-        self._returns = self._compares = False
+        self._returns = False
 
     def set_language(self, catalogue: Catalogue) -> None:
         """Say in this language what the code is for."""
@@ -207,11 +206,6 @@ class DebriefScreen(PageScreen):
         self._summary = summary
         self.given.emit()
 
-    def compare(self, names: Set[str]) -> None:
-        """Tell which conditions the study compares; of the paper's two there is a picture."""
-        self._compares = names == {Condition.TOM.name, Condition.NOTOM.name}
-        self.given.emit()
-
     def give_code(self, code: str, *, returns: bool = False) -> None:
         """Show this code; with an empty one nothing is said about withdrawing.
 
@@ -224,14 +218,9 @@ class DebriefScreen(PageScreen):
     def clear(self) -> None:
         """Show no page and no code."""
         self._code = self._contact = self._summary = ""
-        self._returns = self._compares = False
+        self._returns = False
         self.given.emit()
         super().clear()
-
-    @Property(bool, notify=given)
-    def compares(self) -> bool:
-        """Whether the study compares the paper's two versions of the help."""
-        return self._compares
 
     @property
     def shown_code(self) -> str:
