@@ -5,6 +5,7 @@ The slowest of all tests, half a minute and more. A pytest file rather than a st
 
 from __future__ import annotations
 
+import ctypes
 import json
 import os
 import shutil
@@ -22,6 +23,7 @@ import pytest
 from kiosk import program
 from kiosk.cli.composition import code_commit
 from kiosk.store.queries import open_repository
+from kiosk.training.native import COMPILER, SHIPPED
 from tests.samples import WITH_PIN
 
 ROOT = Path(__file__).parents[2]
@@ -185,6 +187,12 @@ def test_what_the_screens_do_not_use_is_not_in_a_build(folder: Path) -> None:
     assert not modules & {"VirtualKeyboard", "Dialogs", "NativeStyle", "Scene2D", "Timeline"}
     assert not {file.name for file in qt.rglob("*")} & {"libQt6Designer.so.6", "libqsqlite.so", "libqgtk3.so"}
     assert not list(qt.rglob("*.qm"))
+
+
+@pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")
+def test_a_build_brings_the_loops_of_training_compiled(folder: Path) -> None:
+    loops = ctypes.CDLL(str(folder / "_internal" / "kiosk" / "training" / SHIPPED.name))
+    assert hasattr(loops, "play_all")
 
 
 def test_what_only_developers_use_is_not_in_a_build(folder: Path) -> None:

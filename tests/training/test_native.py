@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from kiosk.training import native
+from kiosk.training import ahead, native
 from kiosk.training.c_source import NotARule, c_source
 
 Ints = list[int]
@@ -104,6 +104,13 @@ def test_the_library_is_kept_for_the_next_time(tmp_path: Path, monkeypatch: pyte
     monkeypatch.setattr(native, "COMPILER", None)
     native.library.cache_clear()
     assert native.library() is not None
+
+
+@needs_a_compiler
+def test_the_library_of_a_build_is_made_in_the_place_that_is_named(tmp_path: Path) -> None:
+    made = tmp_path / "work" / native.SHIPPED.name
+    assert ahead.main([str(made)]) == 0
+    assert hasattr(ctypes.CDLL(str(made)), "learn_episodes")
 
 
 @pytest.mark.parametrize("compiler", [None, "/bin/false", "/nowhere/cc"])
