@@ -433,12 +433,15 @@ Window {
         line: root.words["wait-line"]
     }
     PanelLayer {
+        // Over the assistant too, who comes forward for a question.
+        z: 2
         anchors.fill: parent
         experimenter: root.experimenter
         holdsRight: corner.atLeft
     }
     // A person who points at something does not work by keyboard. It lies over everything to know, and takes nothing.
     Item {
+        z: 2
         anchors.fill: parent
         PointHandler { onActiveChanged: if (active) Theme.byKeyboard = false }
     }

@@ -213,6 +213,9 @@ def test_nobody_is_taken_for_being_there_because_somebody_types_a_pin(assigner: 
     assigner.type("2")
     assigner.wait_until(lambda: bool(assigner.app.screens.kiosk.property("asksStillThere")))
     assert assigner.app.clock.now_ms() - begun == idle
+    content = assigner.app.window.contentItem().childItems()
+    layers = {each.metaObject().className().partition("_")[0]: each.z() for each in content}
+    assert layers["PanelLayer"] > layers["SidePanel"], "the assistant, who asks, covers the experimenter's card"
 
 
 def test_the_card_tells_nothing_of_what_it_is_for(assigner: Desk) -> None:
