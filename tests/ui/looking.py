@@ -179,11 +179,13 @@ def background(picture: QImage, where: QRect) -> QColor:
 
 def _pixels(picture: QImage, where: QRect | None) -> NDArray[np.uint8]:
     """Return the red, green and blue of a place in a picture, 0 to 255: (height, width, 3)."""
-    plain = picture.convertToFormat(QImage.Format.Format_RGB888)
+    inside = (where or picture.rect()).intersected(picture.rect())
+    if inside.isEmpty():
+        return np.empty((0, 0, 3), np.uint8)
+    # The whole picture would be converted for each text that stands in it.
+    plain = picture.copy(inside).convertToFormat(QImage.Format.Format_RGB888)
     rows = np.frombuffer(plain.constBits(), np.uint8).reshape(plain.height(), plain.bytesPerLine())
-    inside = (where or plain.rect()).intersected(plain.rect())
-    whole = rows[:, : 3 * plain.width()].reshape(plain.height(), plain.width(), 3)
-    return whole[inside.top() : inside.bottom() + 1, inside.left() : inside.right() + 1].copy()
+    return rows[:, : 3 * plain.width()].reshape(plain.height(), plain.width(), 3).copy()
 
 
 def _light(colour: NDArray[np.float64]) -> Light:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QRect
@@ -56,20 +56,21 @@ class Sight:
 def look(window: QQuickWindow, moment: str, side: str) -> Sight:
     """Look closely at what stands there."""
     picture = window.grabWindow()
-    shown = [text for text in texts(window.contentItem()) if _is_in_front(window, text)]
+    over = [item for item in items(window.contentItem()) if _covers(item)]
+    bars = _bars(window)
+    shown = [text for text in texts(window.contentItem()) if _is_in_front(window, text, over)]
     share = ATTRACT_SHARE if moment.startswith("attract") else BOARD_SHARE
     return Sight(
         moment,
         tuple(untold(window)),
         tuple(_written(picture, text) for text in shown if not painted(text).isEmpty()),
         tuple(_name(item) for item in _laid_out(window) if _is_astray(window, item, side, share)),
-        tuple(_name(text) for text in shown if any(bar.intersects(painted(text)) for bar in _bars(window))),
+        tuple(_name(text) for text in shown if any(bar.intersects(painted(text)) for bar in bars)),
     )
 
 
-def _is_in_front(window: QQuickWindow, text: QQuickItem) -> bool:
+def _is_in_front(window: QQuickWindow, text: QQuickItem, over: Sequence[QQuickItem]) -> bool:
     """Whether nothing lies over a text: the rest steps back by intent."""
-    over = [item for item in items(window.contentItem()) if _covers(item)]
     if any(item.objectName() == "panel" or lies_in(item, "CalmCard") for item in over):
         return lies_in(text, *OVER_EVERYTHING) and not _is_below_a_card(window, text)
     return lies_in(text, *OVER_EVERYTHING) or not any(place(item).intersects(painted(text)) for item in over)
