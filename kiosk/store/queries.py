@@ -7,9 +7,8 @@ import sqlite3
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
-from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from kiosk import UserInputError
 from kiosk.assistance.assistant import Explanation, game_after
@@ -26,9 +25,6 @@ from kiosk.experiment.session_state import SessionState, language_before_flip
 from kiosk.game import Concentration
 from kiosk.store.chain import broken_links
 from kiosk.store.listing import SessionList, StoredSession, opened
-
-if TYPE_CHECKING:
-    import sqlite_utils
 
 LARGEST = 2**63 - 1
 """The largest whole number that SQLite knows."""
@@ -211,8 +207,8 @@ class SessionRepository(SessionList):
         return 1 if row is None else int(row[0])
 
     def _changed_language(self, number: int) -> bool:
-        where = "session = ? AND type = ?"
-        return self._tables["event"].count_where(where, [number, LanguageSelected.__name__]) > 0
+        query = "SELECT EXISTS (SELECT 1 FROM event WHERE session = ? AND type = ?)"
+        return bool(self._connection.execute(query, (number, LanguageSelected.__name__)).fetchone()[0])
 
     def _translations(self, row: dict[str, Any]) -> tuple[Translation, ...]:
         """All languages that the visitor could go on in."""
@@ -230,22 +226,19 @@ class SessionRepository(SessionList):
 
     def source(self, sha256: str) -> str:
         """Return what is kept under a hash; raises UserInputError if nothing is."""
-        for row in self._tables["source"].rows_where("sha256 = ?", [sha256]):
-            return str(row["content"])
-        raise UserInputError(f"nothing is kept under the hash {sha256}")
+        row = self._connection.execute("SELECT content FROM source WHERE sha256 = ?", (sha256,)).fetchone()
+        if row is None:
+            raise UserInputError(f"nothing is kept under the hash {sha256}")
+        return str(row[0])
 
     def _row(self, number: int) -> dict[str, Any]:
-        rows = self._tables["session"].rows_where("id = ?", [number]) if abs(number) <= LARGEST else ()
-        for row in rows:
-            return row
+        """Return the columns of a session by their names; raises UserInputError if there is none."""
+        if abs(number) <= LARGEST:
+            cursor = self._connection.execute("SELECT * FROM session WHERE id = ?", (number,))
+            names = [column for column, *_ in cursor.description]
+            for row in cursor:
+                return dict(zip(names, row, strict=True))
         raise UserInputError(f"there is no session {number}")
-
-    @cached_property
-    def _tables(self) -> sqlite_utils.Database:
-        """The tables, by name."""
-        import sqlite_utils  # noqa: PLC0415 - it loads numpy, which the list of sessions has no use for
-
-        return sqlite_utils.Database(self._connection)
 
 
 @contextmanager
