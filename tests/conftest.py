@@ -38,6 +38,8 @@ LONGEST = (
     *("test_story.py", "ui/test_accessibility.py", "ui/test_resume.py", "ui/test_without_a_mouse.py"),
     *("ui/test_long_words.py", "store/maintenance/test_withdraw_cut_off.py", "cli/test_robot.py"),
     *("ui/experimenter/test_shortcuts.py", "ui/test_nothing_is_left.py", "ui/test_full_disk.py"),
+    *("plugins/test_robot.py", "training/test_simulated_players.py", "cli/test_supervise.py", "export/test_export.py"),
+    *("cli/test_study.py", "test_walls.py", "store/maintenance/test_merge.py", "experiment/test_session.py"),
 )
 """Files that take longest. They begin first, so that no process works on alone at the end."""
 

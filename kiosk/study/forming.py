@@ -4,11 +4,21 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
 from itertools import product
 
-from fluent.syntax.ast import FunctionReference, MessageReference, SyntaxNode, TermReference, VariableReference
+from fluent.syntax.ast import (
+    FunctionReference,
+    Message,
+    MessageReference,
+    SyntaxNode,
+    Term,
+    TermReference,
+    VariableReference,
+)
 from fluent.syntax.visitor import Visitor
 
+from kiosk.assistance.late_messages import parsed
 from kiosk.assistance.wording import CARD, Catalogue, Written, given_with
 
 _TEXTS = frozenset({CARD, "ago", "code", "contact", "free", "participant", "stage", "what", "when", "why"})
@@ -98,7 +108,15 @@ def _given(name: str, model: Catalogue) -> frozenset[str] | None:
 
 def _shape(written: Written) -> bool:
     """Whether a message is one text, and not several wordings."""
-    return written.entry.value is not None
+    return _entry(written).value is not None
+
+
+def _entry(written: Written) -> Message | Term:
+    """Return a message as Fluent's parser gives it, without parsing the rest of a shipped file."""
+    if written.late is None:
+        return written.entry
+    (entry,) = (each for each in parsed(written.late).body if isinstance(each, Message | Term))
+    return entry
 
 
 def _unknown(name: str, written: Written, catalogue: Catalogue, given: frozenset[str] | None) -> Iterator[str]:
@@ -106,24 +124,25 @@ def _unknown(name: str, written: Written, catalogue: Catalogue, given: frozenset
     uses = _Uses.of(written)
     forms = {key for key in catalogue.forms if key != CARD}
     for node in uses.nodes:
-        where = _where(written, node)
+        where = partial(_where, written, node)
         match node:
             case VariableReference() if given is not None:
                 variable = node.id.name
                 known = given | (forms if CARD in given else frozenset())
                 if variable not in known:
                     there = ", ".join(f"${each}" for each in sorted(known)) or "none"
-                    yield f"{where}: the message {name} asks for the variable ${variable}; it is given {there}"
+                    yield f"{where()}: the message {name} asks for the variable ${variable}; it is given {there}"
             case MessageReference() if node.id.name not in catalogue.written:
-                yield f"{where}: the message {name} refers to a message {node.id.name}, which does not exist"
+                yield f"{where()}: the message {name} refers to a message {node.id.name}, which does not exist"
             case TermReference() if f"-{node.id.name}" not in catalogue.written:
-                yield f"{where}: the message {name} refers to a term -{node.id.name}, which does not exist"
+                yield f"{where()}: the message {name} refers to a term -{node.id.name}, which does not exist"
             case FunctionReference() if node.id.name not in _FUNCTIONS:
-                yield f"{where}: the message {name} calls {node.id.name}(), which does not exist"
+                yield f"{where()}: the message {name} calls {node.id.name}(), which does not exist"
 
 
 def _where(written: Written, node: SyntaxNode) -> str:
-    return f"{written.file}, line {written.line(node)}"
+    """Return the file and line of a part of a message; of a shipped one, the line where it begins."""
+    return f"{written.file}, line {written.line(node if written.late is None else written.entry)}"
 
 
 class _Uses(Visitor):
@@ -136,7 +155,7 @@ class _Uses(Visitor):
     def of(cls, written: Written) -> _Uses:
         """Collect it of this message."""
         uses = cls()
-        uses.visit(written.entry)
+        uses.visit(_entry(written))
         return uses
 
     def names(self, kind: type[VariableReference]) -> set[str]:
