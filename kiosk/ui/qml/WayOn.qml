@@ -32,7 +32,8 @@ FocusScope {
         + (back.visible ? back.implicitWidth + Theme.gap : 0)
     readonly property bool beside: wish <= width
     readonly property real step: 0.5 * Theme.gap
-    readonly property real tallest: Math.max(go.visible ? go.height : 0, back.visible ? back.height : 0)
+    // As high without a way on, so that the way back stands at the same place.
+    readonly property real tallest: !go.visible && !back.visible ? 0 : Math.max(go.visible ? go.height : go.implicitHeight, back.visible ? back.height : 0)
 
     // Where there are too many for one row: whether the way back stands beside the other one.
     readonly property bool paired: no.visible && back.implicitWidth + Theme.gap + no.implicitWidth <= width
@@ -76,7 +77,8 @@ FocusScope {
         visible: ways.kiosk.goesBack
         most: ways.width
         x: Theme.across(0, width, ways.width)
-        y: ways.beside ? (ways.tallest - height) / 2 : ways.paired ? no.y + (no.height - height) / 2 : ways.height - height
+        // Level with a way on of usual letters, also beside one of larger letters.
+        y: ways.beside ? ways.tallest - height - Math.min(8 * Theme.unit, (ways.tallest - height) / 2) : ways.paired ? no.y + (no.height - height) / 2 : ways.height - height
         quiet: true
         words: ways.words["control-back"]
         verticalPadding: 18 * Theme.unit

@@ -71,7 +71,18 @@ Flow {
         const wishes = []
         for (let i = 0; i < buttons.count; i++)
             wishes.push((buttons.itemAt(i) as Choosable)?.implicitWidth ?? 0)
-        for (const count of [6, 12]) {
+        // As many rows as they would take side by side, or one less than in columns of their own.
+        let most = 1, end = -packed
+        for (const wish of wishes) {
+            if (end + packed + wish > width && end > 0) {
+                most++
+                end = -packed
+            }
+            end += packed + wish
+        }
+        if (tiled)
+            most = Math.ceil(options.length / columns) - 1
+        for (const count of even ? [6, 12] : []) {
             const part = (width - (count - 1) * gridGap) / count
             const rows = []
             let left = -1
@@ -84,7 +95,7 @@ Flow {
                 rows[rows.length - 1].push(span)
                 left -= span
             }
-            if (rows.length >= Math.ceil(options.length / columns))
+            if (rows.length > most)
                 continue
             const widths = []
             for (const row of rows) {
@@ -101,7 +112,7 @@ Flow {
         }
         return []
     }
-    readonly property bool flowing: tiled && width >= 1020 * Theme.unit && (gridded.length > 0 || filled.length > 0)
+    readonly property bool flowing: width >= 1020 * Theme.unit && (gridded.length > 0 || tiled && filled.length > 0)
     readonly property real tile: Math.floor((width - (columns - 1) * packed) / columns)
 
     spacing: flowing ? (gridded.length > 0 ? gridGap : apart) : packed
