@@ -64,10 +64,11 @@ def is_control(item: QQuickItem) -> bool:
     """Whether it can be clicked, or reached by keyboard, to some end."""
     if is_ignored(item) or item.inherits("QQuickScrollBar"):
         return False
-    handled = any(child.inherits(kind) for child in item.children() for kind in HANDLERS)
-    stops = bool(item.property("activeFocusOnTab")) or item.inherits("QQuickAbstractButton")
-    # To touch the ground of a form is to have done with typing, which every other key and control is as well.
-    return stops or (handled and item.objectName() != "ground") or item.inherits("QQuickMouseArea")
+    if item.property("activeFocusOnTab") or item.inherits("QQuickAbstractButton") or item.inherits("QQuickMouseArea"):
+        return True
+    # To touch the ground of a form is to have done with typing, which every other key and control is as well. Its
+    # children are asked for last: Qt for Python makes an object for each of them.
+    return item.objectName() != "ground" and any(child.inherits(kind) for child in item.children() for kind in HANDLERS)
 
 
 def place(item: QQuickItem) -> QRect:

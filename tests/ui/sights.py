@@ -100,7 +100,7 @@ def _written(picture: QImage, text: QQuickItem) -> Written:
 def _laid_out(window: QQuickWindow) -> Iterator[QQuickItem]:
     """Yield the texts and controls of a visitor's screen, and the assistant's bubble."""
     for item in items(window.contentItem()):
-        if (is_control(item) or item.inherits("QQuickText")) and not lies_in(item, *OVER_EVERYTHING):
+        if not lies_in(item, *OVER_EVERYTHING) and (item.inherits("QQuickText") or is_control(item)):
             yield item
 
 
