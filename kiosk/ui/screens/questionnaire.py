@@ -85,6 +85,8 @@ class FormScreen(QObject):
         self._catalogue = catalogue
         self._scale = scale
         self._items: tuple[Item, ...] = ()
+        self._views: list[dict[str, Any]] | None = None
+        """What is shown of the items, once the screen has asked for it: it asks dozens of times for each page."""
         self._hidden: frozenset[str] = frozenset()
         self._shown: tuple[Item, ...] = ()
         self._number = self._of = 0
@@ -99,7 +101,7 @@ class FormScreen(QObject):
         """Ask in this language; answers, and what is typed, stay."""
         if catalogue is self._catalogue:
             return
-        self._catalogue = catalogue
+        self._catalogue, self._views = catalogue, None
         typed = dict(self._drafts)
         self.changed.emit()
         self.marked.emit()
@@ -109,6 +111,7 @@ class FormScreen(QObject):
     def show(self, items: tuple[Item, ...], number: int, of: int, hidden: tuple[str, ...] = ()) -> None:
         """Show a page, ``number`` ``of`` so many, but for its hidden items; nothing is answered."""
         self._items, self._number, self._of = items, number, of
+        self._views = None
         self._set_hidden(hidden)
         self._answers, self._given, self._drafts, self._missing = {}, {}, {}, ()
         self._keystrokes = 0
@@ -178,7 +181,9 @@ class FormScreen(QObject):
     @Property(list, notify=changed)
     def items(self) -> list[dict[str, Any]]:
         """Return what is shown of the items, in their order."""
-        return [item_view(item, self._catalogue, self._scale) for item in self._items]
+        if self._views is None:
+            self._views = [item_view(item, self._catalogue, self._scale) for item in self._items]
+        return self._views
 
     @Property(str, notify=changed)
     def progress(self) -> str:
