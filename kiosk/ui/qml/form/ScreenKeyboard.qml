@@ -71,7 +71,7 @@ Rectangle {
         contentItem: Text {
             textFormat: Text.PlainText
             text: key.drawn ? "" : key.words
-            font { pixelSize: Math.min(keyboard.flat && !keyboard.strip ? Theme.size(42) : Theme.body, 0.56 * keyboard.keyHeight); bold: key.pressedIn }
+            font { pixelSize: Math.min(keyboard.strip && key.words.length > 1 ? Theme.size(28) : keyboard.flat && !keyboard.strip ? Theme.size(42) : Theme.body, 0.56 * keyboard.keyHeight); bold: key.pressedIn }
             color: key.pressedIn ? Theme.white : Theme.ink
             horizontalAlignment: Text.AlignHCenter
             verticalAlignment: Text.AlignVCenter
