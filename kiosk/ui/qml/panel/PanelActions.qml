@@ -56,19 +56,35 @@ PanelSection {
             onClicked: actions.panel.wish("break", "")
         }
     }
-    // In a row of their own: they take a game from a visitor.
+    Item { width: 1; height: 4 * Theme.unit }
+    PanelChoice {
+        width: parent.width
+        action: "break"
+        large: true
+        even: true
+        title: actions.words["console-break"]
+        options: actions.choices.breaks ?? []
+        chosen: actions.choices.break ?? ""
+        onPicked: value => actions.panel.wish("break", value)
+    }
+    // Apart at the foot: they take a game from a visitor.
     Item {
         width: parent.width
-        height: ends.height + 24 * Theme.unit
+        height: ends.height + 40 * Theme.unit
         visible: actions.choices.underWay || actions.choices.canBeNext
+        Rectangle {
+            y: 14 * Theme.unit
+            width: parent.width
+            height: 2 * Theme.unit
+            color: Theme.edge
+        }
         Flow {
             id: ends
-            y: 12 * Theme.unit
+            y: 32 * Theme.unit
             width: parent.width
             spacing: 12 * Theme.unit
             Action {
                 objectName: "action-next"
-                filled: true
                 visible: actions.choices.canBeNext
                 words: actions.words["console-next"]
                 onClicked: actions.panel.wish("next", "")
@@ -80,15 +96,5 @@ PanelSection {
                 onClicked: actions.panel.wish("abort", "")
             }
         }
-    }
-    PanelChoice {
-        width: parent.width
-        action: "break"
-        large: true
-        even: true
-        title: actions.words["console-break"]
-        options: actions.choices.breaks ?? []
-        chosen: actions.choices.break ?? ""
-        onPicked: value => actions.panel.wish("break", value)
     }
 }

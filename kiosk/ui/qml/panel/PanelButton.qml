@@ -49,8 +49,8 @@ Button {
     background: Rectangle {
         radius: 12 * Theme.unit
         color: button.solid ? (button.filled && button.hovered ? Theme.lightSea : Theme.sea) : button.down ? Theme.sand : button.hovered ? Theme.white : Theme.paper
-        // What cannot be pressed now has no edge.
-        border { color: Theme.sea; width: button.enabled ? 2 * Theme.unit : 0 }
+        // What cannot be pressed now has a pale edge.
+        border { color: button.enabled ? Theme.sea : Theme.edge; width: 2 * Theme.unit }
         FocusRing {
             around: button
             reach: 5 * Theme.unit

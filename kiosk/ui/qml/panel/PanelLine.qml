@@ -35,7 +35,7 @@ Row {
         width: implicitWidth
         visible: row.action !== ""
         enabled: row.ready
-        verticalPadding: 2 * Theme.unit
+        verticalPadding: 6 * Theme.unit
         words: row.action
         onClicked: row.asked()
     }
