@@ -350,7 +350,7 @@ STUDIES: dict[str, Bad] = {
     ),
     "sheet with an empty paragraph": Bad(
         TOLD,
-        ("the information sheet {here}/sheets/en.toml: about.paragraph 3 must not be empty",),
+        ("the information sheet {here}/sheets/en.toml: about.paragraph 5 must not be empty",),
         told("en", "It takes about ten minutes. You can stop whenever you like.", ""),
     ),
     "purpose twice": Bad(
