@@ -97,9 +97,14 @@ PageFrame {
             color: Theme.faintInk
         }
         Item {
-            x: view.rows > 2 ? (parent.width - width) / 2 : Theme.across(0, width, parent.width)
+            id: shelf
+            // The first and the last of a row stand at the edges of the figures below them, where little is missing.
+            readonly property real inset: view.rows > 2 ? 0 : 0.04 * view.slot
+            readonly property real wish: ((parent?.width ?? 0) + 2 * inset - view.slot) / Math.max(1, view.columns - 1)
+            readonly property real pitch: view.rows <= 2 && wish > view.slot && wish < 1.08 * view.slot ? wish : view.slot
+            x: view.rows > 2 ? (parent.width - width) / 2 : Theme.across(-inset, width, parent.width)
             visible: view.slot > 70 * Theme.unit
-            width: view.slot * view.columns
+            width: pitch * (view.columns - 1) + view.slot
             height: view.slot * view.rows
             Repeater {
                 model: view.result.pictures
@@ -109,7 +114,7 @@ PageFrame {
                     required property string modelData
                     // Each has its share of the time, from left to right.
                     readonly property real come: Math.max(0, Math.min(1, view.shown * (view.count + 3) / 3 - index / 3))
-                    x: Theme.across(index % view.columns * view.slot, width, view.columns * view.slot)
+                    x: Theme.across(index % view.columns * shelf.pitch, width, shelf.width)
                     y: Math.floor(index / view.columns) * view.slot
                     width: view.slot
                     height: view.slot
