@@ -74,6 +74,7 @@ OUTSIDE: dict[str, set[str]] = {
     "PySide6": {"ui"},
     "shiboken6": {"ui"},
     "sqlite3": {"store"},
+    "sqlite_utils": {"store"},
     "requests": {"robots"},
     "urllib": {"robots"},
     "urllib3": {"robots"},
@@ -102,8 +103,9 @@ NEEDED = {"analysis": ("matplotlib", "scipy")}
 LOADED_ANYWAY = {"urllib", "http", "socket", "click", "rich"}
 """Libraries load these on their own account, so having them in memory breaks no rule."""
 
-BROUGHT_ALONG = {"training": {"sqlite3", "scipy"}}
-"""The same in one package only: numba looks for scipy and for coverage, which keeps a database."""
+BROUGHT_ALONG = {"store": {"numpy"}, "training": {"sqlite3", "scipy"}}
+"""The same in one package only: sqlite_utils looks for numpy, numba for scipy and for coverage, which keeps a
+database."""
 
 
 def modules(package: Path) -> Iterator[tuple[str, str, Path]]:
@@ -247,7 +249,7 @@ def test_the_way_to_the_first_screen_loads_nothing_that_is_slow_and_not_needed_y
     )
     assert done.returncode == 0, done.stderr
     loaded = set(ast.literal_eval(done.stdout))
-    slow = {"requests", "numpy", "scipy", "matplotlib", "numba", "gymnasium", "pyttsx3"}
+    slow = {"sqlite_utils", "requests", "numpy", "scipy", "matplotlib", "numba", "gymnasium", "pyttsx3"}
     assert loaded & slow == set()
 
 

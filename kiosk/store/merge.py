@@ -9,9 +9,12 @@ import subprocess
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import count, product
 from pathlib import Path
 from typing import Any, TypeVar
+
+from sqlite_utils import Database
 
 from kiosk import StorageError, UserInputError
 from kiosk.experiment.outcomes import SessionKind
@@ -117,12 +120,13 @@ class _Part:
     attached: str = ""
     """What its database is called on the connection that writes the new one; "" if it is not there."""
 
+    @cached_property
+    def _database(self) -> Database:
+        return Database(self.connection, recursive_triggers=False, execute_plugins=False)
+
     def rows(self, table: str, where: str = "", *values: int) -> Iterator[Row]:
         """Rows of a table by their columns' names."""
-        cursor = self.connection.execute(f"SELECT * FROM {table} {where}", values)  # noqa: S608 - the names are ours
-        names = [name for name, *_ in cursor.description]
-        for row in cursor:
-            told = dict(zip(names, row, strict=True))
+        for told in self._database.query(f"SELECT * FROM {table} {where}", values):  # noqa: S608 - ours
             yield told | {"site": self.site} if self.site is not None and "site" in told else told
 
     @property
