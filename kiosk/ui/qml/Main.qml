@@ -334,7 +334,8 @@ Window {
         // Where the game speaks, there is always a place for the button that comes and goes.
         readonly property bool keeps: root.speaks && root.kiosk.inSession
         x: atLeft ? Theme.gap + (keeps ? fullWidth - width : 0) : root.width - width - 0.7 * Theme.gap
-        y: root.wide && !root.whole ? 0.7 * Theme.gap : root.room - (keeps ? fullHeight : height) - 0.5 * Theme.gap
+        // In a column it is the uppermost one.
+        y: root.wide && !root.whole ? 0.7 * Theme.gap : root.room - (keeps && places > 1 ? fullHeight : height) - 0.5 * Theme.gap
     }
     // How far the visit is; quiet, beside the controls or in the other corner.
     Progress {
