@@ -63,7 +63,10 @@ class Timing(ConfigModel):
     tap_ends_sentence: Annotated[
         bool, Field(description="If taps do not wait: whether one ends the sentence; else it is said to its end.")
     ] = True
-    mood_ms: Annotated[Milliseconds, Field(description="How long the assistant looks happy, confused or sad.")] = 2500
+    mood_ms: Annotated[
+        Milliseconds,
+        Field(description="How long the assistant looks happy, confused or sad, unless a new card ends it."),
+    ] = 2500
     finish_ms: Annotated[Milliseconds, Field(description="From the last pair to the result.")] = 1800
     gaze_ms: Annotated[
         Milliseconds,

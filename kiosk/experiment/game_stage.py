@@ -162,6 +162,8 @@ class GameStage(StageHandler):
         self._given: _Given | None = None
         self._trailing: int | None = None
         """The sentence of an earlier flip's hint that is still being said."""
+        self._reacts = False
+        """Whether the assistant's face shows what came of the last hint."""
 
     @property
     def helped(self) -> bool:
@@ -244,9 +246,16 @@ class GameStage(StageHandler):
             self._put_away(given, outcome)
         outcome.effect(do.RevealCard(flip.position, flip.card))
         if flip.matched is None:
+            self._compose(outcome)
             self._help_or_open(outcome)
         else:
             self._move_completed(flip, given, outcome)
+
+    def _compose(self, outcome: OutcomeBuilder) -> None:
+        """End the face about the last move, which would be read as one about the card that was just turned."""
+        if self._reacts:
+            self._reacts = False
+            outcome.effect(do.StopTimer(Timer.MOOD), do.SetExpression(Mood.IDLE))
 
     def _put_away(self, given: _Given, outcome: OutcomeBuilder) -> None:
         """Clear the hint of the flip that was just made.
@@ -286,6 +295,7 @@ class GameStage(StageHandler):
                 self._end_trailing(outcome)
                 self._release_board(outcome)
             case Timer.MOOD:
+                self._reacts = False
                 outcome.effect(do.SetExpression(Mood.IDLE))
             case Timer.FINISH:
                 self.finish(outcome)
@@ -313,6 +323,7 @@ class GameStage(StageHandler):
         outcome.effect(do.ShowProgress(self.game.pairs_found, self.game.moves))
         hint = given.hint if given is not None else None
         if hint is not None:
+            self._reacts = True
             outcome.effect(do.SetExpression(_reaction(hint, flip)), do.StartTimer(Timer.MOOD, self._timing.mood_ms))
         if not flip.matched:
             outcome.effect(

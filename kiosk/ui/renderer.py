@@ -125,6 +125,7 @@ class Renderer:
                     screens.kiosk.show("practice" if practice else "game")
                 case do.RevealCard(position=position, card=card):
                     screens.board.reveal(position, card)
+                    screens.avatar.feel(None)
                     self._watch_card(position)
                 case do.HideCards(positions=positions):
                     screens.board.hide(positions)

@@ -53,11 +53,11 @@ age-no = No
 
 introduction-title = Hello!
 introduction-speech =
-    .a = Hello, nice to meet you! There are { $cards } cards, and every picture is there twice. Turn two cards at a time and find all the pairs. Now and then I will help you. Good luck!
-    .b = Hello, I am glad you are here! { $cards } cards, { $pairs } pairs. Turn two cards at a time until all the pairs are found. Sometimes I will give you a hint. Have fun!
+    .a = Hello, nice to meet you! There are { $cards } cards, and every picture is there twice. Find all the pairs. Good luck!
+    .b = Hello, I am glad you are here! { $cards } cards, { $pairs } pairs: find them all. Have fun!
 introduction-speech-alone =
-    .a = Hello, nice to meet you! There are { $cards } cards, and every picture is there twice. Turn two cards at a time and find all the pairs. I will watch. Good luck!
-    .b = Hello, I am glad you are here! { $cards } cards, { $pairs } pairs. Turn two cards at a time until all the pairs are found. Have fun!
+    .a = Hello, nice to meet you! There are { $cards } cards, and every picture is there twice. Find all the pairs. I will watch. Good luck!
+    .b = Hello, I am glad you are here! { $cards } cards, { $pairs } pairs: find them all. Have fun!
 introduction-turn = Turn two cards at a time.
 introduction-match = Two alike stay open. Two different ones turn back.
 introduction-help = Now and then I give you a hint. Whether you take it is up to you.
@@ -68,8 +68,8 @@ introduction-continue = I am ready
 practice-title = Practice
 practice-skip = To the game
 practice-speech =
-    .a = Let us practise first. Nothing counts yet, and you can go on to the game whenever you like.
-    .b = First a short practice. Try it out in peace; when you have had enough, go on to the game.
+    .a = Turn over any card: let us practise first. Nothing counts yet, and you can go on to the game whenever you like.
+    .b = Turn over any card. This is a short practice: when you have had enough, go on to the game.
 
 ## Game
 

@@ -54,11 +54,11 @@ age-no = No
 
 introduction-title = ¡Hola!
 introduction-speech =
-    .a = ¡Hola, me alegro de conocerte! Hay { $cards } cartas, y cada dibujo está dos veces. Levanta las cartas de dos en dos y encuentra todas las parejas. De vez en cuando te echaré una mano. ¡Mucha suerte!
-    .b = ¡Hola, qué bien que estés aquí! { $cards } cartas, { $pairs } parejas. Levanta las cartas de dos en dos hasta encontrarlas todas. A veces te daré una pista. ¡Que te diviertas!
+    .a = ¡Hola, me alegro de conocerte! Hay { $cards } cartas, y cada dibujo está dos veces. Encuentra todas las parejas. ¡Mucha suerte!
+    .b = ¡Hola, qué bien que estés aquí! { $cards } cartas, { $pairs } parejas: encuéntralas todas. ¡Que te diviertas!
 introduction-speech-alone =
-    .a = ¡Hola, me alegro de conocerte! Hay { $cards } cartas, y cada dibujo está dos veces. Levanta las cartas de dos en dos y encuentra todas las parejas. Yo te miro jugar. ¡Mucha suerte!
-    .b = ¡Hola, qué bien que estés aquí! { $cards } cartas, { $pairs } parejas. Levanta las cartas de dos en dos hasta encontrarlas todas. ¡Que te diviertas!
+    .a = ¡Hola, me alegro de conocerte! Hay { $cards } cartas, y cada dibujo está dos veces. Encuentra todas las parejas. Yo te miro jugar. ¡Mucha suerte!
+    .b = ¡Hola, qué bien que estés aquí! { $cards } cartas, { $pairs } parejas: encuéntralas todas. ¡Que te diviertas!
 introduction-turn = Da la vuelta a dos cartas cada vez.
 introduction-match = Dos iguales se quedan a la vista. Dos distintas se vuelven a tapar.
 introduction-help = De vez en cuando te doy una pista. Tú decides si la sigues.
@@ -69,8 +69,8 @@ introduction-continue = Empecemos
 practice-title = Práctica
 practice-skip = Ir al juego
 practice-speech =
-    .a = Primero practicamos un poco. Todavía no cuenta nada, y puedes pasar al juego cuando quieras.
-    .b = Empezamos con una breve práctica. Prueba con calma; cuando tengas bastante, pasa al juego.
+    .a = Da la vuelta a cualquier carta: primero practicamos un poco. Todavía no cuenta nada, y puedes pasar al juego cuando quieras.
+    .b = Da la vuelta a cualquier carta. Es una breve práctica: cuando tengas bastante, pasa al juego.
 
 ## Game
 

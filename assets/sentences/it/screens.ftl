@@ -54,11 +54,11 @@ age-no = No
 
 introduction-title = Ciao!
 introduction-speech =
-    .a = Ciao, che piacere conoscerti! Ci sono { $cards } carte, e ogni figura c'è due volte. Gira due carte alla volta e trova tutte le coppie. Ogni tanto ti darò una mano. In bocca al lupo!
-    .b = Ciao, che bello averti qui! { $cards } carte, { $pairs } coppie. Gira due carte alla volta, finché non le hai trovate tutte. Qualche volta ti darò un suggerimento. Buon divertimento!
+    .a = Ciao, che piacere conoscerti! Ci sono { $cards } carte, e ogni figura c'è due volte. Trova tutte le coppie. In bocca al lupo!
+    .b = Ciao, che bello averti qui! { $cards } carte, { $pairs } coppie: trovale tutte. Buon divertimento!
 introduction-speech-alone =
-    .a = Ciao, che piacere conoscerti! Ci sono { $cards } carte, e ogni figura c'è due volte. Gira due carte alla volta e trova tutte le coppie. Io ti guardo giocare. In bocca al lupo!
-    .b = Ciao, che bello averti qui! { $cards } carte, { $pairs } coppie. Gira due carte alla volta, finché non le hai trovate tutte. Buon divertimento!
+    .a = Ciao, che piacere conoscerti! Ci sono { $cards } carte, e ogni figura c'è due volte. Trova tutte le coppie. Io ti guardo giocare. In bocca al lupo!
+    .b = Ciao, che bello averti qui! { $cards } carte, { $pairs } coppie: trovale tutte. Buon divertimento!
 introduction-turn = Gira due carte alla volta.
 introduction-match = Due carte uguali restano scoperte. Due diverse si coprono di nuovo.
 introduction-help = Ogni tanto ti do un suggerimento. Sta a te decidere se seguirlo.
@@ -69,8 +69,8 @@ introduction-continue = Cominciamo
 practice-title = Prova
 practice-skip = Vai al gioco
 practice-speech =
-    .a = Prima facciamo una prova. Non conta ancora nulla, e puoi passare al gioco quando vuoi.
-    .b = Cominciamo con una breve prova. Fai con calma; quando ne hai abbastanza, passa al gioco.
+    .a = Scopri una carta qualsiasi: prima facciamo una prova. Non conta ancora nulla, e puoi passare al gioco quando vuoi.
+    .b = Scopri una carta qualsiasi. È una breve prova: quando ne hai abbastanza, passa al gioco.
 
 ## Game
 

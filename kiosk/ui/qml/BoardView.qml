@@ -364,6 +364,13 @@ FocusScope {
                 if (found && Theme.motion > 0)
                     coming.restart()
             }
+            // The face looks at a card that has just turned.
+            onUpChanged: {
+                if (!up)
+                    return
+                view.touched = view.centre(index)
+                view.touchedSomething()
+            }
             onMissedChanged: if (missed && Theme.motion > 0) sigh.restart()
 
             Rectangle {

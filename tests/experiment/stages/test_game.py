@@ -393,6 +393,16 @@ def test_a_hint_that_was_followed_in_vain_makes_it_sad() -> None:
     assert driver.view.mood is Mood.SAD
 
 
+def test_the_next_card_ends_the_face_about_the_last_move() -> None:
+    driver = Driver(plan(policy=ONLY_SECOND, timing=Timing(mood_ms=60_000)), 1)
+    driver.to_the_game()
+    miss(driver)
+    driver.wait_until_open()
+    assert seen(driver, "mood") == (Mood.CONFUSED,)
+    driver.flip(driver.view.closed[0])
+    assert seen(driver, "mood") == (Mood.IDLE,)
+
+
 def test_a_second_flip_without_a_hint_leaves_the_face_as_it_is() -> None:
     driver = playing()
     begun = len(driver.steps)

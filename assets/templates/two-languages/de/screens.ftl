@@ -53,11 +53,11 @@ age-no = Nein
 
 introduction-title = Hallo!
 introduction-speech =
-    .a = Hallo, schön, dass du da bist! Es gibt { $cards } Karten, und jedes Bild ist zweimal da. Decke immer zwei Karten auf und finde alle Paare. Ab und zu helfe ich dir. Viel Glück!
-    .b = Hallo, ich freue mich, dass du hier bist! { $cards } Karten, { $pairs } Paare. Decke immer zwei Karten auf, bis alle Paare gefunden sind. Manchmal gebe ich dir einen Tipp. Viel Spaß!
+    .a = Hallo, schön, dass du da bist! Es gibt { $cards } Karten, und jedes Bild ist zweimal da. Finde alle Paare. Viel Glück!
+    .b = Hallo, ich freue mich, dass du hier bist! { $cards } Karten, { $pairs } Paare: Finde sie alle. Viel Spaß!
 introduction-speech-alone =
-    .a = Hallo, schön, dass du da bist! Es gibt { $cards } Karten, und jedes Bild ist zweimal da. Decke immer zwei Karten auf und finde alle Paare. Ich schaue zu. Viel Glück!
-    .b = Hallo, ich freue mich, dass du hier bist! { $cards } Karten, { $pairs } Paare. Decke immer zwei Karten auf, bis alle Paare gefunden sind. Viel Spaß!
+    .a = Hallo, schön, dass du da bist! Es gibt { $cards } Karten, und jedes Bild ist zweimal da. Finde alle Paare. Ich schaue zu. Viel Glück!
+    .b = Hallo, ich freue mich, dass du hier bist! { $cards } Karten, { $pairs } Paare: Finde sie alle. Viel Spaß!
 introduction-turn = Decke immer zwei Karten auf.
 introduction-match = Zwei gleiche bleiben offen. Zwei verschiedene drehen sich wieder um.
 introduction-help = Ab und zu gebe ich dir einen Tipp. Ob du ihm folgst, entscheidest du.
@@ -68,8 +68,8 @@ introduction-continue = Ich bin bereit
 practice-title = Übung
 practice-skip = Zum Spiel
 practice-speech =
-    .a = Üben wir erst einmal. Noch zählt nichts, und du kannst zum Spiel weitergehen, wann du möchtest.
-    .b = Zuerst eine kurze Übung. Probiere es in Ruhe aus; wenn es dir reicht, geh weiter zum Spiel.
+    .a = Dreh irgendeine Karte um: Wir üben erst einmal. Noch zählt nichts, und du kannst zum Spiel weitergehen, wann du möchtest.
+    .b = Dreh irgendeine Karte um. Das ist eine kurze Übung: Wenn es dir reicht, geh weiter zum Spiel.
 
 ## Game
 
