@@ -36,17 +36,36 @@ PageFrame {
         }
         return tall <= room
     }
+    // Whether the words for the ends of all scales of the page break into two lines of six letters' height in width.
+    readonly property bool halved: !alone && !dense && Theme.textSize <= 1.15
+        && form.items.every(item => !["likert", "differential", "pictures", "slider"].includes(item.kind) || halves(item.left) && halves(item.right))
+    // How wide they then are.
+    readonly property real ends: !halved ? 0 : own ? 6 * Theme.size(26) : upright ? 6 * Theme.size(28) : 0
+    function halves(text: string): bool {
+        const gap = letters.advanceWidth(" "), room = 620
+        let lines = 1, at = -gap
+        for (const word of text.split(" ")) {
+            const wide = letters.advanceWidth(word)
+            if (wide > room)
+                return false
+            if (at + gap + wide > room) {
+                lines++
+                at = -gap
+            }
+            at += gap + wide
+        }
+        return lines <= 2
+    }
     function ownRows(): real {
         const wide = column - 2.4 * Theme.gap, size = Theme.size(28)
-        const most = (width, item) => width / 2 - Theme.gap
-            - (item.kind === "slider" ? 0.5 * (letters.advanceWidth(words["form-touch"]) * size / 100 + 60 * Theme.unit) : 0)
+        const scale = halved ? 84 * Theme.unit + 2.36 * Theme.size(26) : 98 * Theme.unit + 1.37 * size
         let tall = 0
         for (const item of form.items) {
             const lines = Math.ceil(letters.advanceWidth(item.text) * rowText / 100 / (textShare * wide * 0.88))
             const end = Math.max(letters.advanceWidth(item.left), letters.advanceWidth(item.right)) * size / 100
-            if (end > most((0.96 - textShare) * wide, item))
+            if (end > (0.96 - textShare) * wide / 2 - Theme.gap)
                 return Infinity
-            tall += form.hidden.includes(item.id) ? 0 : Math.max(98 * Theme.unit + 1.37 * size, lines * 1.37 * rowText) + 36 * Theme.unit + spread
+            tall += form.hidden.includes(item.id) ? 0 : Math.max(scale, lines * 1.37 * rowText) + (halved ? 30 : 36) * Theme.unit + spread
         }
         return tall
     }
@@ -288,6 +307,7 @@ PageFrame {
                     large: view.width < view.height && view.form.items.length < 5
                     beside: view.own || view.rowText > 0 && view.scales(modelData)
                     own: view.own
+                    ends: view.ends
                     rowText: view.rowText
                     textShare: view.textShare
                     headed: !view.repeats(index)

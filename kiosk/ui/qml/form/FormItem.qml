@@ -21,6 +21,8 @@ Item {
     property bool headed: true
     // Whether every row has the words for its ends, below its own scale.
     property bool own: false
+    // How wide these words are where they stand in two lines under the middles of the ends; 0 where they do not.
+    property real ends: 0
     // How many lines its text has at least, so that the cards of a page are as high.
     property int leastLines: 1
     // Whether a number stands beside its text, at the end of the card.
@@ -43,13 +45,13 @@ Item {
     // How much of what can be added to the distances of this page is added, from 0 to 1.
     property real loosened: 0
     // How high it is without that, and how much can be added.
-    readonly property real plain: Math.max(least, head + (inline ? Math.max(told.height, way.height) : told.height + (way.active ? usualSpacing + way.height : 0)) + 2 * usualMargin)
+    readonly property real plain: Math.max(least, head + (inline ? Math.max(told.height, way.height) : told.height + (way.active ? usualSpacing + way.height : 0)) + lacking + 2 * usualMargin)
     readonly property real addable: alone || beside ? 0 : 32 * Theme.unit
     // Where its text and a number beside each other end, from the left.
     readonly property real taken: Math.max(question.contentWidth, (way.item as NumberField)?.width ?? 0) + 1.2 * Theme.gap
-    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : airy ? 18 : calm ? 14 : 8) * Theme.unit
+    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : airy ? 22 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
-    readonly property real usualMargin: alone ? 0 : (beside ? dense ? 9 : own ? 18 : 20 : dense ? 8 : tight ? 10 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
+    readonly property real usualMargin: alone ? 0 : (beside ? dense ? 9 : own ? ends > 0 ? 15 : 18 : 20 : dense ? 8 : tight ? 10 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
     // Letters have some air above them already; what stands below them does not.
     readonly property real raised: alone || beside || inline || dense ? 0 : 4 * Theme.unit
     readonly property var ways: ({
@@ -94,7 +96,9 @@ Item {
     // The words for the ends stand above the first card of a table.
     readonly property real head: beside && headed && !own ? ((way.item as PointScale)?.words ?? 0) + 8 * Theme.unit : 0
 
-    height: Math.max(least, head + content.height + 2 * margin)
+    // The cards of a page are as high, and in each the text stands as far above what answers it.
+    readonly property real lacking: beside ? 0 : Math.max(0, leastLines - question.lineCount) * question.implicitHeight / Math.max(1, question.lineCount)
+    height: Math.max(least, head + content.height + lacking + 2 * margin)
 
     Rectangle {
         anchors { fill: parent; topMargin: box.head }
@@ -114,7 +118,7 @@ Item {
             // Where the middle of a row is: that of the points, and not of words above them.
             readonly property real scaled: (way.item as PointScale)?.size ?? 0
             // Rows of one line and of two are as high; with words for its ends it is as high as a scale and a line of words.
-            readonly property real middle: Math.max(box.own ? 98 * Theme.unit + 1.37 * Theme.size(28) : scaled, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
+            readonly property real middle: Math.max(box.own ? box.ends > 0 ? 84 * Theme.unit + 2.36 * Theme.size(26) : 98 * Theme.unit + 1.37 * Theme.size(28) : scaled, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
             height: box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : told.height + (way.active ? content.spacing + way.height : 0)
             Column {
                 id: told
@@ -125,8 +129,6 @@ Item {
                 Balanced {
                     id: question
                     width: parent.width
-                    height: Math.max(implicitHeight, box.leastLines * implicitHeight / Math.max(1, lineCount))
-                    verticalAlignment: Text.AlignVCenter
                     text: box.item.text
                     font {
                         pixelSize: box.item.kind === "page" ? Theme.size(36) : box.alone ? Theme.heading
@@ -224,6 +226,7 @@ Item {
             beside: box.beside
             headed: box.headed
             own: box.own
+            ends: box.ends
             lift: box.own ? 0 : box.margin + asked.middle - size / 2 + 8 * Theme.unit
             item: box.item.id
             label: box.item.text
@@ -244,6 +247,7 @@ Item {
         SliderScale {
             width: way.room
             own: box.own
+            ends: box.ends
             item: box.item.id
             label: box.item.text
             lowest: box.item.lowest

@@ -23,12 +23,14 @@ Item {
     property bool headed: true
     // Whether they stand below the points of every row instead.
     property bool own: false
+    // How wide the words for its ends are where they stand in two lines under the middles of its ends; 0 where they do not.
+    property real ends: 0
     // How far above the points they stand then.
     property real lift: 0
     signal chosen(int point)
 
     readonly property bool pictured: pictures.length > 0
-    readonly property real wish: (alone ? 132 : beside ? dense ? 72 : 92 : dense ? 58 : tight ? 66 : large ? 112 : 76) * Theme.unit * (pictured ? 1.25 : 1)
+    readonly property real wish: (alone ? 132 : beside ? dense ? 72 : own && ends > 0 ? 80 : 92 : dense ? 58 : tight ? 66 : large ? ends > 0 ? 100 : 112 : 76) * Theme.unit * (pictured ? 1.25 : 1)
     readonly property real size: Math.min(wish, width / (points * 1.45))
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real most: 250 * Theme.unit * Theme.textSize
@@ -38,11 +40,13 @@ Item {
     readonly property real spare: width - leftRoom - rightRoom - 2 * Theme.gap - points * size
     readonly property real least: 0.42 * size * (points - 1)
     readonly property bool below: alone || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least)
-    readonly property real gap: beside ? (width - points * size) / Math.max(1, points - 1) : pictured ? 0.4 * size : alone ? 0.25 * size
+    readonly property bool centred: ends > 0 && below && !pictured && !alone && (!beside || own)
+    readonly property real inset: centred ? Math.max(0, (ends - size) / 2) : 0
+    readonly property real gap: beside || centred ? (width - 2 * inset - points * size) / Math.max(1, points - 1) : pictured ? 0.4 * size : alone ? 0.25 * size
         : Math.min(1.6 * size, Math.max(0.25 * size, (below ? width - points * size : spare) / Math.max(1, points - 1)))
     readonly property real span: points * size + (points - 1) * gap
 
-    readonly property real under: own ? 6 * Theme.unit : 0.5 * Theme.gap
+    readonly property real under: centred ? 4 * Theme.unit : own ? 6 * Theme.unit : 0.5 * Theme.gap
     readonly property real words: Math.max(lowest.height, highest.height)
     // Below a few points there would be room for a few letters only: the ends then reach beyond the points.
     readonly property real half: Math.min(width / 2 - Theme.gap, Math.max(span / 2 - 0.5 * Theme.gap, most))
@@ -58,23 +62,25 @@ Item {
         visible: !scale.beside || scale.own || scale.headed
         x: Theme.across(0, width, scale.width)
         y: scale.beside && !scale.own ? scale.words - height : scale.below ? row.height + scale.under : (scale.height - height) / 2
-        width: scale.below ? scale.half : scale.leftRoom
+        width: scale.centred ? scale.ends : scale.below ? scale.half : scale.leftRoom
         text: scale.leftEnd
-        horizontalAlignment: Text.AlignLeft
-        font.pixelSize: scale.own ? Theme.size(28) : scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small
+        horizontalAlignment: scale.centred ? Text.AlignHCenter : Text.AlignLeft
+        lineHeight: scale.centred ? 0.86 : 1
+        font.pixelSize: scale.ends > 0 && !scale.alone ? Theme.size(scale.own ? 26 : 28) : scale.own ? Theme.size(28) : scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small
         wrapMode: Text.Wrap
         color: Theme.ink
     }
     PlainText {
         id: highest
         visible: lowest.visible
-        readonly property real end: Math.max(scale.span, 2 * scale.half + Theme.gap)
+        readonly property real end: scale.centred ? scale.width : Math.max(scale.span, 2 * scale.half + Theme.gap)
         x: Theme.across(scale.below ? end - width : scale.leftRoom + scale.span + 2 * Theme.gap, width, scale.width)
         y: scale.beside && !scale.own ? scale.words - height : scale.below ? lowest.y : (scale.height - height) / 2
-        width: scale.below ? scale.half : scale.rightRoom
+        width: scale.centred ? scale.ends : scale.below ? scale.half : scale.rightRoom
         text: scale.rightEnd
-        horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
-        font.pixelSize: scale.own ? Theme.size(28) : scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small
+        horizontalAlignment: scale.centred ? Text.AlignHCenter : scale.below ? Text.AlignRight : Text.AlignLeft
+        lineHeight: lowest.lineHeight
+        font.pixelSize: scale.ends > 0 && !scale.alone ? Theme.size(scale.own ? 26 : 28) : scale.own ? Theme.size(28) : scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small
         wrapMode: Text.Wrap
         color: Theme.ink
     }
@@ -89,7 +95,7 @@ Item {
     }
     Row {
         id: row
-        x: Theme.across(scale.below ? 0 : scale.leftRoom + Theme.gap, width, scale.width)
+        x: Theme.across(scale.below ? scale.inset : scale.leftRoom + Theme.gap, width, scale.width)
         y: scale.beside ? scale.head : scale.below ? 0 : (scale.height - height) / 2
         spacing: scale.gap
         Repeater {

@@ -23,47 +23,51 @@ Item {
     property bool large: false
     // Whether it is a row of a table, as high as the points of the others.
     property bool own: false
+    // How wide the words for its ends are where they stand in two lines under the ends of the line; 0 where they do not.
+    property real ends: 0
     signal chosen(int value)
 
     readonly property int range: highest - lowest
     readonly property int leap: Math.max(1, Math.round(range / 10))
-    readonly property real rail: (own ? 92 : dense ? 62 : large ? 126 : level ? 90 : 100) * Theme.unit
+    readonly property real rail: (own ? ends > 0 ? 80 : 92 : dense ? 62 : large ? ends > 0 ? 108 : 126 : level ? 90 : 100) * Theme.unit
     readonly property real tick: (dense ? 18 : 24) * Theme.unit
     // The handle, with room around it in the line.
     readonly property real thickness: 0.78 * rail
 
     readonly property real words: Math.max(lower.height, upper.height)
-    readonly property real apart: (own ? 6 : large ? 4 : 7) * Theme.unit
+    readonly property real apart: (centred ? 4 : own ? 6 : large ? 4 : 7) * Theme.unit
+    readonly property bool centred: ends > 0 && below && !alone
+    // Its line ends where the middles of the points of the others are.
+    readonly property real inset: centred ? Math.max(0, (ends - rail) / 2) : 0
     // Among other kinds of items the ends stand beside the line, and what there is to do in it.
     readonly property bool level: !own && !alone && !large
     readonly property real most: 250 * Theme.unit * Theme.textSize
     readonly property bool below: !level || width < 4 * most
     readonly property real leftRoom: below ? 0 : Math.min(lower.implicitWidth, most) + Theme.gap
     readonly property real rightRoom: below ? 0 : Math.min(upper.implicitWidth, most) + Theme.gap
-    // What there is to do stands between the ends, where there is room for that, and else above them.
-    readonly property bool shared: level || Math.max(lower.implicitWidth, upper.implicitWidth) + resting.width / 2 + Theme.gap <= slider.width / 2
-    readonly property real above: shared ? 0 : resting.height + apart
 
-    height: !below ? Math.max(slider.height, words) : slider.height + apart + above + (level || !shared ? words : Math.max(words, resting.height))
+    height: below ? slider.height + apart + words : Math.max(slider.height, words)
 
     PlainText {
         id: lower
-        y: scale.below ? slider.height + scale.apart + scale.above : (scale.height - height) / 2
+        y: scale.below ? slider.height + scale.apart : (scale.height - height) / 2
         x: Theme.across(0, width, scale.width)
-        width: scale.below ? slider.width / 2 - Theme.gap : scale.leftRoom - Theme.gap
+        width: scale.centred ? scale.ends : scale.below ? slider.width / 2 - Theme.gap : scale.leftRoom - Theme.gap
         text: scale.leftEnd
-        horizontalAlignment: Text.AlignLeft
-        font.pixelSize: Theme.size(scale.own ? 28 : 30)
+        horizontalAlignment: scale.centred ? Text.AlignHCenter : Text.AlignLeft
+        lineHeight: scale.centred ? 0.86 : 1
+        font.pixelSize: Theme.size(scale.ends > 0 && !scale.alone ? scale.own ? 26 : 28 : scale.own ? 28 : 30)
         wrapMode: Text.Wrap
         color: Theme.ink
     }
     PlainText {
         id: upper
         y: scale.below ? lower.y : (scale.height - height) / 2
-        x: Theme.across(scale.leftRoom + slider.width + scale.rightRoom - width, width, scale.width)
+        x: Theme.across(scale.centred ? scale.width - width : scale.leftRoom + slider.width + scale.rightRoom - width, width, scale.width)
         width: scale.below ? lower.width : scale.rightRoom - Theme.gap
         text: scale.rightEnd
-        horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
+        horizontalAlignment: scale.centred ? Text.AlignHCenter : scale.below ? Text.AlignRight : Text.AlignLeft
+        lineHeight: lower.lineHeight
         font.pixelSize: lower.font.pixelSize
         wrapMode: Text.Wrap
         color: Theme.ink
@@ -79,10 +83,10 @@ Item {
             tell(scale.answered || Math.abs(by) === scale.range ? value + by : value)
         }
         objectName: `slider-${scale.item}`
-        x: Theme.across(scale.leftRoom, width, scale.width)
+        x: Theme.across(scale.leftRoom + scale.inset, width, scale.width)
         y: scale.below ? 0 : (scale.height - height) / 2
         // On a page of several, its ends stand at the same edges as those of the points.
-        width: scale.alone ? Math.min(900 * Theme.unit, scale.width) : scale.width - scale.leftRoom - scale.rightRoom
+        width: scale.alone ? Math.min(900 * Theme.unit, scale.width) : scale.width - scale.leftRoom - scale.rightRoom - 2 * scale.inset
         height: scale.rail
         padding: 0
         leftPadding: (scale.rail - scale.thickness) / 2
@@ -162,41 +166,21 @@ Item {
             border { color: Theme.white; width: 4 * Theme.unit }
         }
     }
-    // Below the line as long as nothing is chosen, with the handle beside it: one that stood in the line would suggest an
-    // answer.
-    Item {
-        id: resting
-        readonly property bool there: !scale.answered && !slider.pressed
-        readonly property real before: scale.level ? 0 : spare.width + 0.4 * Theme.gap
-        width: before + hint.implicitWidth
-        height: hint.implicitHeight
+    // In the line as long as nothing is chosen, without the handle: one that stood there would suggest an answer.
+    Rectangle {
+        visible: hint.visible
+        anchors { fill: hint; leftMargin: -0.5 * Theme.gap; rightMargin: -0.5 * Theme.gap }
+        color: Theme.white
+    }
+    PlainText {
+        id: hint
+        objectName: `touch-${scale.item}`
+        visible: !scale.answered && !slider.pressed
         x: slider.x + (slider.width - width) / 2
-        y: scale.level ? slider.y + (slider.height - height) / 2 : slider.height + scale.apart
-        Rectangle {
-            visible: scale.level && resting.there
-            anchors { fill: hint; margins: -0.4 * Theme.gap; topMargin: 0; bottomMargin: 0 }
-            color: Theme.white
-        }
-        Rectangle {
-            id: spare
-            visible: resting.there && !scale.level
-            x: Theme.across(0, width, resting.width)
-            y: (parent.height - height) / 2
-            width: 30 * Theme.unit
-            height: width
-            radius: width / 2
-            color: Theme.sand
-            border { color: Theme.lightSea; width: 3 * Theme.unit }
-        }
-        PlainText {
-            id: hint
-            objectName: `touch-${scale.item}`
-            visible: resting.there
-            x: Theme.across(resting.before, width, resting.width)
-            width: implicitWidth
-            text: scale.touch
-            font.pixelSize: scale.level ? Theme.small : lower.font.pixelSize
-            color: Theme.faintInk
-        }
+        y: slider.y + (slider.height - height) / 2
+        width: implicitWidth
+        text: scale.touch
+        font.pixelSize: scale.level ? Theme.small : Theme.size(scale.own ? 28 : 30)
+        color: Theme.faintInk
     }
 }
