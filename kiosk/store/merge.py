@@ -12,9 +12,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import count, product
 from pathlib import Path
-from typing import Any, TypeVar
-
-from sqlite_utils import Database
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from kiosk import StorageError, UserInputError
 from kiosk.experiment.outcomes import SessionKind
@@ -27,6 +25,9 @@ from kiosk.store.recorder import insert
 from kiosk.store.summaries import fill_summaries
 from kiosk.store.tombstones import add_tombstones, sessions_of, withdrawn_hashes
 from kiosk.store.verify import check_foreign
+
+if TYPE_CHECKING:
+    import sqlite_utils
 
 Row = dict[str, Any]
 
@@ -121,8 +122,10 @@ class _Part:
     """What its database is called on the connection that writes the new one; "" if it is not there."""
 
     @cached_property
-    def _database(self) -> Database:
-        return Database(self.connection, recursive_triggers=False, execute_plugins=False)
+    def _database(self) -> sqlite_utils.Database:
+        import sqlite_utils  # noqa: PLC0415 - it loads numpy and pandas where they are installed
+
+        return sqlite_utils.Database(self.connection, recursive_triggers=False, execute_plugins=False)
 
     def rows(self, table: str, where: str = "", *values: int) -> Iterator[Row]:
         """Rows of a table by their columns' names."""
