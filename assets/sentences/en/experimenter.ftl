@@ -75,6 +75,7 @@ console-booth = The booth
 ## Health
 
 console-health = How everything is
+console-health-not = needs a look
 console-robot = Robot
 console-robot-none = There is none
 console-avatar = Avatar
@@ -111,7 +112,7 @@ console-policy = Policy
 console-study = Study
 console-pin-line-name = PIN
 console-pin-set = is asked for
-console-pin-none = none is set: every session is a trial, and anybody who knows the keys can do everything
+console-pin-none = none: every session is a trial, and anybody can open this panel
 console-screen = Screen
 
 ## Counts
@@ -210,7 +211,7 @@ console-quit = Leave the kiosk
 
 console-alarms = Alarms
 console-alarms-none = None
-console-alarms-none-but-notice = None. The line at the top is a notice: nothing rings for it.
+console-alarms-none-but-notice = None; the notice is not one
 console-alarm-until = {" "}(over at { $time })
 console-alarm-robot-lost = The robot is lost; the avatar helps
 console-alarm-voice-lost = No sentence is heard: look at the loudspeaker and the sound settings

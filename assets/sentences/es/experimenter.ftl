@@ -75,6 +75,7 @@ console-booth = El puesto
 ## Health
 
 console-health = Estado
+console-health-not = por revisar
 console-robot = Robot
 console-robot-none = No hay
 console-avatar = Avatar
@@ -111,7 +112,7 @@ console-policy = Política
 console-study = Estudio
 console-pin-line-name = PIN
 console-pin-set = se pide
-console-pin-none = no hay: cada sesión es una prueba, y quien conozca las teclas puede hacerlo todo
+console-pin-none = no hay: cada sesión es una prueba, y cualquiera puede abrir el panel
 console-screen = Pantalla
 
 ## Counts
@@ -210,7 +211,7 @@ console-quit = Salir del quiosco
 
 console-alarms = Alarmas
 console-alarms-none = Ninguna
-console-alarms-none-but-notice = Ninguna. La línea de arriba es un aviso: no suena nada.
+console-alarms-none-but-notice = Ninguna; el aviso no lo es
 console-alarm-until = {" "}(terminó a las { $time })
 console-alarm-robot-lost = El robot no responde; ayuda el avatar
 console-alarm-voice-lost = Las frases no se oyen: revise el altavoz y los ajustes de sonido

@@ -75,6 +75,7 @@ console-booth = La postazione
 ## Health
 
 console-health = Stato
+console-health-not = da controllare
 console-robot = Robot
 console-robot-none = Non ce n’è
 console-avatar = Avatar
@@ -111,7 +112,7 @@ console-policy = Politica
 console-study = Studio
 console-pin-line-name = PIN
 console-pin-set = viene chiesto
-console-pin-none = non c’è: ogni sessione è una prova, e chi conosce i tasti può fare tutto
+console-pin-none = non c’è: ogni sessione è una prova, e chiunque può aprire il pannello
 console-screen = Schermo
 
 ## Counts
@@ -210,7 +211,7 @@ console-quit = Esci dal chiosco
 
 console-alarms = Allarmi
 console-alarms-none = Nessuno
-console-alarms-none-but-notice = Nessuno. La riga in alto è un avviso: non suona nulla.
+console-alarms-none-but-notice = Nessuno; l’avviso non lo è
 console-alarm-until = {" "}(finito alle { $time })
 console-alarm-robot-lost = Il robot non risponde più; aiuta l’avatar
 console-alarm-voice-lost = Le frasi non si sentono: guardare l’altoparlante e le impostazioni dell’audio

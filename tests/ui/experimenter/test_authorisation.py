@@ -292,7 +292,7 @@ def test_without_a_pin_nothing_is_asked_but_the_reason(make_assigner: MakeDesk) 
     assert assigner.panel.is_open
     lines = assigner.panel.property("health")["more"]
     assert [line["message"] for line in lines if line["name"] == "PIN"] == [
-        "none is set: every session is a trial, and anybody who knows the keys can do everything"
+        "none: every session is a trial, and anybody can open this panel"
     ]
 
 

@@ -1,4 +1,4 @@
-// What can be done at once.
+// What can be done at once: what is done all day first, and apart at the foot what ends a session.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -8,34 +8,56 @@ PanelSection {
     id: actions
 
     required property PanelScreen panel
+    required property bool wide
     readonly property var words: panel.words
     readonly property var choices: panel.choices
+    readonly property real space: apart
 
     title: words["console-actions"]
 
-    // What is pressed in a hurry is large; two in a row, or one where its words need more.
+    // How many stand in a row; one, where its words need more.
     component Action: PanelButton {
-        verticalPadding: 13 * Theme.unit
+        property int row: !actions.choices.underWay ? (actions.wide ? 1 : 2) : actions.wide ? 2 : 3
         readonly property real room: parent?.width ?? Infinity
-        readonly property real half: (room - 12 * Theme.unit) / 2
-        width: implicitWidth <= half ? half : room
+        readonly property real each: (room - (row - 1) * actions.space) / row - 0.5
+        least: 68 * Theme.unit
+        width: implicitWidth <= each ? each : room
+    }
+    // What is pressed all day: the largest.
+    component Main: PanelButton {
+        least: 92 * Theme.unit
+        width: actions.wide ? parent?.width ?? Infinity : ((parent?.width ?? Infinity) - actions.space) / 2 - 0.5
+        font.pixelSize: Theme.dense * 1.18
     }
 
     Flow {
         width: parent.width
-        spacing: 12 * Theme.unit
-        Action {
+        spacing: actions.space
+        Main {
+            objectName: "break-end"
+            filled: true
+            visible: actions.choices.onBreak ?? false
+            words: actions.words["console-break-end"]
+            onClicked: actions.panel.wish("break", "")
+        }
+        Main {
+            objectName: "action-next"
+            filled: !(actions.choices.onBreak ?? false)
+            visible: actions.choices.canBeNext
+            words: actions.words["console-next"]
+            onClicked: actions.panel.wish("next", "")
+        }
+        Main {
             objectName: "action-pause"
             visible: actions.choices.underWay
             words: actions.choices.staysPaused ? actions.words["console-not-stay-paused"] : actions.words["console-stay-paused"]
             chosen: actions.choices.staysPaused
             onClicked: actions.panel.wish("pause", "")
         }
-        Action {
-            objectName: "action-mute"
-            words: actions.choices.muted ? actions.words["console-heard"] : actions.words["console-mute"]
-            onClicked: actions.panel.wish("mute", "")
-        }
+    }
+    Flow {
+        width: parent.width
+        spacing: actions.space
         Action {
             objectName: "action-again"
             visible: actions.choices.underWay
@@ -49,52 +71,48 @@ PanelSection {
             onClicked: actions.panel.wish("backup", "")
         }
         Action {
-            objectName: "break-end"
-            filled: true
-            visible: actions.choices.onBreak ?? false
-            words: actions.words["console-break-end"]
-            onClicked: actions.panel.wish("break", "")
+            objectName: "action-mute"
+            row: actions.wide ? 1 : actions.choices.underWay ? 3 : 2
+            words: actions.choices.muted ? actions.words["console-heard"] : actions.words["console-mute"]
+            onClicked: actions.panel.wish("mute", "")
         }
     }
-    Item { width: 1; height: 4 * Theme.unit }
+    Item { width: 1; height: 2 * Theme.unit }
     PanelChoice {
-        width: parent.width
+        id: breaks
+        width: actions.wide || !actions.choices.underWay ? parent.width : (parent.width - 2 * Theme.gap) / 2
         action: "break"
-        large: true
         even: true
         title: actions.words["console-break"]
         options: actions.choices.breaks ?? []
         chosen: actions.choices.break ?? ""
         onPicked: value => actions.panel.wish("break", value)
     }
-    // Apart at the foot: they take a game from a visitor.
+    // Apart, at the foot or beside the break: it takes a game from a visitor.
     Item {
+        visible: actions.choices.underWay && actions.wide
         width: parent.width
-        height: ends.height + 40 * Theme.unit
-        visible: actions.choices.underWay || actions.choices.canBeNext
-        Rectangle {
-            y: 14 * Theme.unit
-            width: parent.width
-            height: 2 * Theme.unit
-            color: Theme.edge
-        }
-        Flow {
-            id: ends
-            y: 32 * Theme.unit
-            width: parent.width
-            spacing: 12 * Theme.unit
-            Action {
-                objectName: "action-next"
-                visible: actions.choices.canBeNext
-                words: actions.words["console-next"]
-                onClicked: actions.panel.wish("next", "")
-            }
-            Action {
-                objectName: "action-end"
-                visible: actions.choices.underWay
-                words: actions.words["console-abort"]
-                onClicked: actions.panel.wish("abort", "")
-            }
-        }
+        height: end.height + 2 * Theme.gap
+    }
+    Rectangle {
+        parent: actions
+        visible: end.visible
+        x: actions.wide ? end.x : actions.width / 2 - width
+        y: actions.wide ? end.y - Theme.gap : actions.height - height - 1.1 * Theme.gap
+        width: actions.wide ? end.width : 2 * Theme.unit
+        height: actions.wide ? 2 * Theme.unit : breaks.height
+        color: Theme.edge
+    }
+    PanelButton {
+        id: end
+        parent: actions
+        objectName: "action-end"
+        visible: actions.choices.underWay
+        anchors { right: parent.right; bottom: parent.bottom; margins: 0.8 * Theme.gap; bottomMargin: 1.1 * Theme.gap }
+        width: actions.wide ? actions.width - 1.6 * Theme.gap : actions.width / 2 - 1.8 * Theme.gap
+        least: (actions.wide ? 68 : 60) * Theme.unit
+        grave: true
+        words: actions.words["console-abort"]
+        onClicked: actions.panel.wish("abort", "")
     }
 }

@@ -11,11 +11,6 @@ PanelSection {
 
     title: panel.words["console-alarms"]
 
-    // What is not well need not be an alarm: then the line at the top stands over an empty list.
-    PanelEmpty {
-        words: alarms.panel.words[alarms.panel.health.well ? "console-alarms-none" : "console-alarms-none-but-notice"]
-        visible: alarms.panel.alarms.length === 0
-    }
     Repeater {
         model: alarms.panel.alarms
         delegate: Row {
@@ -23,18 +18,18 @@ PanelSection {
             required property var modelData
             width: parent.width
             spacing: 10 * Theme.unit
-            PanelMark { id: mark; well: !row.modelData.holds }
+            PanelMark { id: mark; well: !row.modelData.holds; size: alarms.size }
             PlainText {
                 id: when
                 text: row.modelData.when
-                font.pixelSize: Theme.dense
+                font.pixelSize: alarms.size
                 color: Theme.faintInk
             }
             PlainText {
                 objectName: "alarm-words"
                 width: row.width - mark.width - when.width - 2 * row.spacing
                 text: row.modelData.words
-                font.pixelSize: Theme.dense
+                font.pixelSize: alarms.size
                 color: row.modelData.holds ? Theme.deepAmber : Theme.faintInk
                 wrapMode: Text.Wrap
             }

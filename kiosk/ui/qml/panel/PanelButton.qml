@@ -1,4 +1,4 @@
-// A button of the panel: as tall as a line, and the same by mouse, touch and keyboard. Arrows go around, as Tab does.
+// A button of the panel: as tall as a finger needs, and the same by mouse, touch and keyboard. Arrows go around, as Tab does.
 pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Controls.Basic
@@ -14,15 +14,20 @@ Button {
     property bool choosable: false
     // What is pressed most, and must be found at a glance.
     property bool filled: false
+    // What takes something from a visitor.
+    property bool grave: false
+    property real least: 60 * Theme.unit
+    readonly property color tone: grave ? Theme.deepAmber : Theme.sea
     readonly property bool solid: chosen || (filled && enabled)
     property int alignment: Text.AlignHCenter
 
-    width: Math.min(implicitWidth, parent?.width ?? Infinity)
+    width: Math.min(Math.ceil(implicitWidth), parent?.width ?? Infinity)
+    height: Math.max(least, implicitHeight)
     Accessible.name: words
     focusPolicy: Qt.StrongFocus
     horizontalPadding: 18 * Theme.unit
     verticalPadding: 9 * Theme.unit
-    font { pixelSize: Theme.dense; bold: solid }
+    font { pixelSize: Theme.dense; bold: solid || grave }
     checkable: choosable
     checked: choosable && chosen
     onCheckedChanged: if (checked !== (choosable && chosen)) checked = Qt.binding(() => button.choosable && button.chosen)
@@ -40,7 +45,7 @@ Button {
         textFormat: Text.PlainText
         text: button.words
         font: button.font
-        color: button.solid ? Theme.white : button.enabled ? Theme.sea : Theme.faintInk
+        color: button.solid ? Theme.white : button.enabled ? button.tone : Theme.faintInk
         horizontalAlignment: button.alignment
         verticalAlignment: Text.AlignVCenter
         // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
@@ -50,7 +55,7 @@ Button {
         radius: 12 * Theme.unit
         color: button.solid ? (button.filled && button.hovered ? Theme.lightSea : Theme.sea) : button.down ? Theme.sand : button.hovered ? Theme.white : Theme.paper
         // What cannot be pressed now has a pale edge.
-        border { color: button.enabled ? Theme.sea : Theme.edge; width: 2 * Theme.unit }
+        border { color: button.enabled ? button.tone : Theme.edge; width: (button.grave ? 3 : 2) * Theme.unit }
         FocusRing {
             around: button
             reach: 5 * Theme.unit

@@ -8,9 +8,10 @@ PlainText {
     property bool heading: false
     property string column: ""      // its heading, for those who hear one field after another
     property bool number: false
+    property real size: Theme.dense
 
     text: words
-    font.pixelSize: heading ? Theme.denser : Theme.dense
+    font.pixelSize: heading ? Math.max(Theme.denser, 0.84 * size) : size
     color: heading ? Theme.faintInk : Theme.ink
     horizontalAlignment: number ? Text.AlignRight : Text.AlignLeft
     wrapMode: Text.Wrap

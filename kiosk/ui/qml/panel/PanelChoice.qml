@@ -11,8 +11,6 @@ Column {
     required property string chosen
     required property string action
     property bool titled: true
-    // Whether they are pressed in a hurry, and so larger.
-    property bool large: false
     // Whether they take all of the width, in one row where their words fit.
     property bool even: false
     readonly property real each: (width - (options.length - 1) * 9 * Theme.unit) / Math.max(1, options.length) - 0.5
@@ -41,8 +39,6 @@ Column {
                 chosen: modelData.value === choice.chosen
                 choosable: true
                 width: choice.even && implicitWidth <= choice.each ? choice.each : Math.min(implicitWidth, choice.width)
-                verticalPadding: (choice.large ? 13 : 9) * Theme.unit
-                horizontalPadding: (choice.large ? 20 : 18) * Theme.unit
                 Accessible.role: Accessible.RadioButton
                 Accessible.name: `${choice.title} ${words}`
                 onClicked: choice.picked(modelData.value)

@@ -22,11 +22,12 @@ PanelSection {
     readonly property string heading: words[records.listed ? "console-counts-done" : "console-counts-begun"]
 
     aside: names.visible ? names.width : 0
+    crown: names.visible ? names.height : 0
     title: words[records.listed ? "console-counts" : "console-counts-unlisted"]
 
     Row {
-        PlainText { width: counts.first + counts.between; text: " "; font.pixelSize: Theme.dense }
-        PanelCell { width: counts.second; words: counts.heading; heading: true }
+        PlainText { width: counts.first + counts.between; text: " "; font.pixelSize: counts.size }
+        PanelCell { width: counts.second; words: counts.heading; heading: true; size: counts.size }
         Repeater {
             model: counts.columns
             delegate: PanelCell {
@@ -35,6 +36,7 @@ PanelSection {
                 words: counts.words["console-counts-" + modelData]
                 heading: true
                 number: true
+                size: counts.size
             }
         }
     }
@@ -47,7 +49,7 @@ PanelSection {
                 width: counts.first + counts.between
                 rightPadding: counts.between
                 text: cell.modelData.name
-                font { pixelSize: Theme.dense; bold: true }
+                font { pixelSize: counts.size; bold: true }
                 color: Theme.ink
                 wrapMode: Text.Wrap
             }
@@ -73,7 +75,7 @@ PanelSection {
                     x: cell.modelData.listed ? parent.width * 0.56 : 0
                     text: cell.modelData.done
                     Accessible.name: `${text} ${counts.heading}`
-                    font.pixelSize: Theme.dense
+                    font.pixelSize: counts.size
                     color: Theme.ink
                 }
             }
@@ -86,6 +88,7 @@ PanelSection {
                     words: modelData
                     column: counts.words["console-counts-" + counts.columns[index]]
                     number: true
+                    size: counts.size
                 }
             }
         }
@@ -94,10 +97,9 @@ PanelSection {
     PanelButton {
         id: names
         parent: counts
-        anchors { top: parent.top; right: parent.right; margins: 0.6 * Theme.gap }
+        anchors { top: parent.top; right: parent.right; margins: 0.8 * Theme.gap }
         objectName: "names"
         width: implicitWidth
-        verticalPadding: 4 * Theme.unit
         visible: counts.records.cells.length > 0
         words: counts.named ? counts.words["console-names-hide"] : counts.words["console-names-show"]
         onClicked: counts.asked()

@@ -3,39 +3,50 @@ pragma ComponentBehavior: Bound
 import QtQuick
 import ".."
 
-Row {
+Item {
     id: row
 
     required property var line
+    property real size: Theme.dense
+    // What is said of a thing that is not well, where its own words stand elsewhere.
+    property string notWell: ""
     // What a button behind the words says; none without.
     property string action: ""
     property bool ready: true
+    readonly property real space: 10 * Theme.unit
     signal asked()
 
-    spacing: 10 * Theme.unit
-    PanelMark { id: mark; well: row.line.is_ok }
-    PlainText {
-        id: name
-        width: row.width * 0.29
-        text: row.line.name
-        font { pixelSize: Theme.dense; bold: true }
-        color: Theme.ink
-        wrapMode: Text.Wrap
-    }
-    PlainText {
-        width: row.width - mark.width - name.width - 2 * row.spacing - (button.visible ? button.width + row.spacing : 0)
-        text: row.line.message
-        font.pixelSize: Theme.dense
-        color: row.line.is_ok ? Theme.faintInk : Theme.deepAmber
-        wrapMode: Text.Wrap
+    height: Math.max(said.height, button.visible ? button.height : 0)
+
+    Row {
+        id: said
+        anchors.verticalCenter: parent.verticalCenter
+        width: row.width - (button.visible ? button.width + row.space : 0)
+        spacing: row.space
+        PanelMark { id: mark; well: row.line.is_ok; size: row.size }
+        PlainText {
+            id: name
+            width: row.width * 0.29
+            text: row.line.name
+            font { pixelSize: row.size; bold: true }
+            color: Theme.ink
+            wrapMode: Text.Wrap
+        }
+        PlainText {
+            width: said.width - mark.width - name.width - 2 * row.space
+            text: row.line.is_ok || row.notWell === "" ? row.line.message : row.notWell
+            font.pixelSize: row.size
+            color: row.line.is_ok ? Theme.faintInk : Theme.deepAmber
+            wrapMode: Text.Wrap
+        }
     }
     PanelButton {
         id: button
         objectName: "test-" + row.line.part
+        anchors { right: parent.right; verticalCenter: parent.verticalCenter }
         width: implicitWidth
         visible: row.action !== ""
         enabled: row.ready
-        verticalPadding: 6 * Theme.unit
         words: row.action
         onClicked: row.asked()
     }

@@ -5,11 +5,12 @@ import ".."
 
 Text {
     required property bool well
+    property real size: Theme.dense
 
     textFormat: Text.PlainText
     text: well ? "●" : "▲"
-    width: Theme.dense
-    font.pixelSize: Theme.dense
+    width: size
+    font.pixelSize: size
     color: well ? Theme.sea : Theme.deepAmber
     Accessible.ignored: true
 }

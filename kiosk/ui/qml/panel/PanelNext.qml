@@ -16,7 +16,7 @@ Item {
 
     Column {
         id: left
-        width: next.wide ? (next.width - next.space) * 0.5 : next.width
+        width: next.wide ? Math.floor((next.width - next.space) * 0.5) : next.width
         spacing: next.space
         PanelSection {
             width: parent.width
@@ -92,6 +92,7 @@ Item {
             }
             PanelEmpty { words: next.panel.records.more; visible: words !== "" }
         }
+        PanelShortcuts { width: parent.width; shown: next.panel.shortcuts }
         // Apart from what is pressed all day.
         PanelButton {
             objectName: "action-leave"

@@ -10,6 +10,10 @@ Rectangle {
     property real aside: 0     // how much room the heading leaves for what stands beside it
     default property alias content: body.data
 
+    // How high its heading is at least, and how large what stands below it is written.
+    property real crown: 0
+    property real size: Theme.dense
+    property real apart: 10 * Theme.unit
     // How high it is at least, where it ends with another one beside it.
     property real least: 0
     readonly property real wish: body.height + heading.height + 2.4 * Theme.gap
@@ -23,8 +27,10 @@ Rectangle {
         id: heading
         anchors { top: parent.top; left: parent.left; right: parent.right; margins: 0.8 * Theme.gap }
         anchors.rightMargin: 0.8 * Theme.gap + section.aside
+        height: Math.max(implicitHeight, section.crown)
+        verticalAlignment: Text.AlignVCenter
         text: section.title
-        font { pixelSize: Theme.dense * 1.12; bold: true }
+        font { pixelSize: section.size * 1.12; bold: true }
         color: Theme.ink
         wrapMode: Text.Wrap
     }
@@ -32,6 +38,6 @@ Rectangle {
         id: body
         anchors { top: heading.bottom; left: parent.left; right: parent.right; margins: 0.8 * Theme.gap }
         anchors.topMargin: 0.5 * Theme.gap
-        spacing: 10 * Theme.unit
+        spacing: section.apart
     }
 }

@@ -19,12 +19,13 @@ PanelSection {
             required property var modelData
             width: parent.width
             spacing: 8 * Theme.unit
-            PanelMark { id: mark; well: !row.modelData.odd }
-            PanelCell { width: row.width * 0.07; words: row.modelData.participant }
-            PanelCell { width: row.width * 0.13; words: row.modelData.when }
-            PanelCell { width: row.width * 0.13; words: row.modelData.condition }
-            PanelCell { width: row.width * 0.19; words: row.modelData.stage }
+            PanelMark { id: mark; well: !row.modelData.odd; size: sessions.size }
+            PanelCell { size: sessions.size; width: row.width * 0.07; words: row.modelData.participant }
+            PanelCell { size: sessions.size; width: row.width * 0.13; words: row.modelData.when }
+            PanelCell { size: sessions.size; width: row.width * 0.13; words: row.modelData.condition }
+            PanelCell { size: sessions.size; width: row.width * 0.19; words: row.modelData.stage }
             PanelCell {
+                size: sessions.size
                 width: row.width * 0.48 - mark.width - 5 * row.spacing
                 words: [row.modelData.status, row.modelData.reason, row.modelData.robot].filter(each => each !== "").join(" · ")
             }

@@ -3,34 +3,33 @@ pragma ComponentBehavior: Bound
 import QtQuick
 import ".."
 
-Rectangle {
+Item {
     id: tile
 
     required property string title
     required property string value
     required property string line
+    // How large the number is.
+    property real size: Theme.dense * 1.6
 
-    implicitHeight: content.height + 1.2 * Theme.gap
-    radius: Theme.radius
-    color: Theme.white
-    border { color: Theme.edge; width: 2 * Theme.unit }
+    implicitHeight: content.height
     Accessible.role: Accessible.Grouping
     Accessible.name: title
 
     Column {
         id: content
-        anchors { left: parent.left; right: parent.right; top: parent.top; margins: 0.8 * Theme.gap; topMargin: 0.6 * Theme.gap }
+        width: parent.width
         PlainText {
             width: parent.width
             text: tile.title
-            font.pixelSize: Theme.denser
+            font.pixelSize: Theme.dense
             color: Theme.faintInk
             wrapMode: Text.Wrap
         }
         PlainText {
             width: parent.width
             text: tile.value
-            font { pixelSize: Theme.dense * 1.6; bold: true }
+            font { pixelSize: tile.size; bold: true }
             color: Theme.ink
             wrapMode: Text.Wrap
         }
@@ -38,7 +37,7 @@ Rectangle {
             width: parent.width
             text: tile.line
             visible: text !== ""
-            font.pixelSize: Theme.denser
+            font.pixelSize: Theme.dense
             color: Theme.faintInk
             wrapMode: Text.Wrap
         }

@@ -1,109 +1,111 @@
-// The first page: the day in numbers, how everything is, who has come, and what can be done at once.
+// The first page: what is going on, what is not well, what can be done at once, and then who has come.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
+import ".."
 
-Column {
+Item {
     id: today
 
     required property PanelScreen panel
     required property bool wide
     required property real space
     readonly property var words: panel.words
+    // An upright screen has room for longer lines, and so for larger ones.
+    readonly property real size: Theme.dense * (wide ? 1.08 : 1.18)
+    // Whole pixels: a card at a fraction of one would lose its right edge.
+    readonly property real side: Math.floor(wide ? width * 0.265 : width)
+    readonly property real main: wide ? width - side - space : width
+    readonly property real half: Math.floor(wide ? main * 0.43 : width)
 
-    spacing: space
+    // Where what stands side by side begins, and where the status ends.
+    readonly property real below: first.height + space
+    readonly property real foot: below + left.height
 
-    Grid {
-        id: tiles
-        // All are as high as the one that needs most.
-        readonly property real highest: {
-            let most = 0
-            for (let i = 0; i < numbers.count; i++)
-                most = Math.max(most, numbers.itemAt(i)?.implicitHeight ?? 0)
-            return most
-        }
-        readonly property real each: (today.width - (columns - 1) * spacing) / columns
+    height: wide ? Math.max(right.height, left.y + left.height, middle.y + middle.height) : middle.y + middle.height
 
-        width: parent.width
-        columns: today.wide ? 4 : 2
+    Column {
+        id: first
+        width: today.main
         spacing: today.space
-        Repeater {
-            id: numbers
-            model: today.panel.today.tiles
-            delegate: PanelTile {
-                required property var modelData
-                objectName: "today-" + modelData.name
-                width: tiles.each
-                height: tiles.highest
-                title: modelData.title
-                value: modelData.value
-                line: modelData.line
+        PanelNow { width: parent.width; panel: today.panel; wide: today.wide }
+        PanelNotice { width: parent.width; health: today.panel.health }
+    }
+    Column {
+        id: right
+        x: today.width - width
+        y: today.wide ? 0 : today.below
+        width: today.side
+        spacing: today.space
+        PanelActions {
+            width: parent.width
+            panel: today.panel
+            wide: today.wide
+            // Beside the others it ends with them, where something stands at its foot.
+            least: today.wide && today.panel.choices.underWay && today.panel.records.resumable.length === 0 ? today.foot : 0
+        }
+        PanelResume { width: parent.width; panel: today.panel }
+    }
+    Column {
+        id: left
+        y: today.wide ? today.below : right.y + right.height + today.space
+        width: today.half
+        spacing: today.space
+        PanelAlarms { width: parent.width; panel: today.panel; size: today.size; visible: today.panel.alarms.length > 0 }
+        PanelSection {
+            width: parent.width
+            apart: (today.wide ? 14 : 9) * Theme.unit
+            size: today.size
+            title: today.words["console-health"]
+            Repeater {
+                model: today.panel.health.lines
+                delegate: PanelLine {
+                    required property var modelData
+                    line: modelData
+                    width: parent.width
+                    size: today.size
+                    // The notice above tells what it is.
+                    notWell: today.words["console-health-not"]
+                    action: modelData.part === "voice" ? today.words["console-test-voice"] : ""
+                    ready: !today.panel.choices.underWay && !today.panel.choices.muted
+                    onAsked: today.panel.wish("test_voice", "")
+                }
+            }
+            // What is not well need not be an alarm: then the notice stands over an empty list.
+            PanelLine {
+                visible: today.panel.alarms.length === 0
+                width: parent.width
+                size: today.size
+                line: ({
+                    name: today.words["console-alarms"],
+                    message: today.words[today.panel.health.well ? "console-alarms-none" : "console-alarms-none-but-notice"],
+                    is_ok: true,
+                    part: "",
+                })
             }
         }
     }
-    Item {
-        width: parent.width
-        readonly property real low: shortcuts.visible ? shortcuts.y + shortcuts.height : 0
-        height: today.wide ? Math.max(left.height, middle.height, right.height, low)
-                           : Math.max(left.height, right.height, low) + today.space + middle.height
-
-        Column {
-            id: left
-            // Whole pixels: a card at a fraction of one would lose its right edge.
-            width: Math.floor(today.wide ? parent.width * 0.31 : (parent.width - today.space) * 0.5)
-            spacing: today.space
-            PanelAlarms { id: alarms; width: parent.width; panel: today.panel }
-            PanelSection {
-                width: parent.width
-                // On an upright screen it ends with the shortcuts beside it.
-                least: today.wide ? 0 : (shortcuts.visible ? shortcuts.y + shortcuts.height : right.height) - alarms.height - today.space
-                title: today.words["console-health"]
-                Repeater {
-                    model: today.panel.health.lines
-                    delegate: PanelLine {
-                        required property var modelData
-                        line: modelData
-                        width: parent.width
-                        action: modelData.part === "voice" ? today.words["console-test-voice"] : ""
-                        ready: !today.panel.choices.underWay && !today.panel.choices.muted
-                        onAsked: today.panel.wish("test_voice", "")
-                    }
-                }
-            }
+    Column {
+        id: middle
+        x: today.wide ? left.width + today.space : 0
+        y: today.wide ? left.y : left.y + left.height + today.space
+        width: today.wide ? today.main - x : today.width
+        spacing: today.space
+        PanelCounts {
+            id: counts
+            width: parent.width
+            size: today.size
+            words: today.words
+            records: today.panel.records
+            named: today.panel.choices.named
+            onAsked: today.panel.wish("names", "")
         }
-        Column {
-            id: middle
-            x: today.wide ? left.width + today.space : 0
-            y: today.wide ? 0 : parent.height - height
-            width: today.wide ? Math.floor(parent.width * 0.42) : parent.width
-            spacing: today.space
-            PanelCounts {
-                width: parent.width
-                words: today.words
-                records: today.panel.records
-                named: today.panel.choices.named
-                onAsked: today.panel.wish("names", "")
-            }
-            PanelSessions { width: parent.width; words: today.words; records: today.panel.records }
-        }
-        Column {
-            id: right
-            x: parent.width - width
-            width: today.wide ? parent.width - left.width - middle.width - 2 * today.space
-                              : Math.floor((parent.width - today.space) * 0.5)
-            spacing: today.space
-            PanelActions { width: parent.width; panel: today.panel }
-            PanelResume { width: parent.width; panel: today.panel }
-        }
-        // Below the shortest column, so that all of it is seen at once.
-        PanelShortcuts {
-            id: shortcuts
-            readonly property Item column: !today.wide || right.height < Math.min(left.height, middle.height) ? right
-                : left.height < middle.height ? left : middle
-            x: column.x
-            y: column.height + today.space
-            width: column.width
-            shown: today.panel.shortcuts
+        PanelSessions {
+            width: parent.width
+            size: today.size
+            least: today.wide ? today.foot - today.below - counts.height - today.space : 0
+            words: today.words
+            records: today.panel.records
         }
     }
 }

@@ -11,7 +11,8 @@ FocusScope {
     required property PanelScreen panel
     readonly property var words: panel.words
     readonly property bool wide: width >= height
-    readonly property real space: 0.75 * Theme.gap
+    // Whole pixels: what ends at a fraction of one would lose its edge.
+    readonly property real space: Math.round(0.75 * Theme.gap)
     property bool onToday: true
 
     objectName: "panel"
@@ -26,14 +27,11 @@ FocusScope {
     Item {
         id: head
         anchors { top: parent.top; left: parent.left; right: parent.right; margins: view.space }
-        // On a narrow screen what is going on stands in a line of its own.
-        readonly property bool narrow: !view.wide
-        readonly property real line: Math.max(close.height, clock.height, title.height)
-        height: narrow ? line + session.height + 0.3 * Theme.gap : Math.max(line, session.height)
+        height: Math.max(close.height, clock.height, title.height)
 
         PlainText {
             id: title
-            y: ((head.narrow ? head.line : head.height) - height) / 2
+            y: (head.height - height) / 2
             text: view.words["console-title"]
             font { pixelSize: Theme.dense * 1.35; bold: true }
             color: Theme.ink
@@ -52,6 +50,7 @@ FocusScope {
                 onClicked: view.onToday = true
             }
             PanelButton {
+                id: second
                 objectName: "panel-next"
                 width: implicitWidth
                 words: view.words["console-next-page"]
@@ -60,16 +59,6 @@ FocusScope {
                 Accessible.role: Accessible.PageTab
                 onClicked: view.onToday = false
             }
-        }
-        PlainText {
-            id: session
-            x: head.narrow ? 0 : pages.x + pages.width + Theme.gap
-            y: head.narrow ? head.height - height : (head.height - height) / 2
-            width: (head.narrow ? head.width : clock.x - Theme.gap) - x
-            text: view.panel.choices.session
-            font.pixelSize: Theme.dense
-            color: Theme.faintInk
-            wrapMode: Text.Wrap
         }
         PlainText {
             id: clock
@@ -88,45 +77,9 @@ FocusScope {
             onClicked: view.panel.wish("panel", "")
         }
     }
-    Rectangle {
-        id: summary
-        anchors { top: head.bottom; left: parent.left; right: parent.right; margins: view.space }
-        height: sentence.height + Theme.gap
-        radius: Theme.radius
-        color: view.panel.health.well ? Theme.sea : Theme.amber
-        // A matter's further lines stand below its words, and not below its mark.
-        Column {
-            id: sentence
-            objectName: "panel-summary"
-            anchors { left: parent.left; right: parent.right; margins: Theme.gap; verticalCenter: parent.verticalCenter }
-            Repeater {
-                model: view.panel.health.summary.split("\n")
-                delegate: Row {
-                    id: matter
-                    required property string modelData
-                    width: sentence.width
-                    spacing: 14 * Theme.unit
-                    PlainText {
-                        id: sign
-                        text: view.panel.health.well ? "✓" : "▲"
-                        font { pixelSize: Theme.dense * 1.12; bold: true }
-                        color: view.panel.health.well ? Theme.white : Theme.ink
-                        Accessible.ignored: true
-                    }
-                    PlainText {
-                        width: matter.width - sign.width - matter.spacing
-                        text: matter.modelData
-                        font { pixelSize: Theme.dense * 1.12; bold: true }
-                        color: sign.color
-                        wrapMode: Text.Wrap
-                    }
-                }
-            }
-        }
-    }
     Flickable {
         id: pane
-        anchors { top: summary.bottom; left: parent.left; right: parent.right; bottom: foot.top; margins: view.space }
+        anchors { top: head.bottom; left: parent.left; right: parent.right; bottom: foot.top; margins: view.space }
         contentHeight: content.height
         clip: true
         boundsBehavior: Flickable.StopAtBounds
@@ -173,12 +126,31 @@ FocusScope {
             }
         }
     }
-    PlainText {
+    Item {
         id: foot
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom; margins: view.space }
-        text: view.words["console-keys"]
-        font.pixelSize: Theme.denser
-        color: Theme.faintInk
-        wrapMode: Text.Wrap
+        height: Math.max(keys.height, shortcuts.visible ? shortcuts.height : 0)
+        PlainText {
+            id: keys
+            anchors { left: parent.left; right: shortcuts.visible ? shortcuts.left : parent.right; verticalCenter: parent.verticalCenter }
+            anchors.rightMargin: shortcuts.visible ? Theme.gap : 0
+            text: view.words["console-keys"]
+            font.pixelSize: Theme.denser
+            color: Theme.faintInk
+            wrapMode: Text.Wrap
+        }
+        // They stand on the second page.
+        PanelButton {
+            id: shortcuts
+            objectName: "panel-shortcuts"
+            anchors { right: parent.right; verticalCenter: parent.verticalCenter }
+            width: implicitWidth
+            visible: view.onToday && view.panel.shortcuts.rows.length > 0
+            words: view.words["console-shortcuts"]
+            onClicked: {
+                view.onToday = false
+                second.forceActiveFocus(Qt.OtherFocusReason)
+            }
+        }
     }
 }

@@ -1,0 +1,44 @@
+// That all is well, or a line for each thing that is not.
+pragma ComponentBehavior: Bound
+import QtQuick
+import ".."
+
+Rectangle {
+    id: notice
+
+    required property var health
+
+    height: sentence.height + Theme.gap
+    radius: Theme.radius
+    color: health.well ? Theme.sea : Theme.amber
+
+    // A matter's further lines stand below its words, and not below its mark.
+    Column {
+        id: sentence
+        objectName: "panel-summary"
+        anchors { left: parent.left; right: parent.right; margins: 0.8 * Theme.gap; verticalCenter: parent.verticalCenter }
+        Repeater {
+            model: notice.health.summary.split("\n")
+            delegate: Row {
+                id: matter
+                required property string modelData
+                width: sentence.width
+                spacing: 14 * Theme.unit
+                PlainText {
+                    id: sign
+                    text: notice.health.well ? "✓" : "▲"
+                    font { pixelSize: Theme.dense * 1.12; bold: true }
+                    color: notice.health.well ? Theme.white : Theme.ink
+                    Accessible.ignored: true
+                }
+                PlainText {
+                    width: matter.width - sign.width - matter.spacing
+                    text: matter.modelData
+                    font { pixelSize: Theme.dense * 1.12; bold: true }
+                    color: sign.color
+                    wrapMode: Text.Wrap
+                }
+            }
+        }
+    }
+}
