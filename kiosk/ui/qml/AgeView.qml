@@ -72,7 +72,7 @@ PageFrame {
                     width: answer.inside
                     horizontalAlignment: Text.AlignHCenter
                     text: answer.meaning
-                    font.pixelSize: Theme.size(view.scaled > 1 ? 42 : 38)
+                    font.pixelSize: Theme.size(38)
                     color: Theme.white
                     Accessible.ignored: true
                 }

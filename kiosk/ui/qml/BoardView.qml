@@ -83,6 +83,8 @@ FocusScope {
     property int turning: 0
     // Where the last pair lies, once all are found.
     property list<int> last: []
+    // The middle of the cards.
+    readonly property real middle: table.x + table.width / 2
     // Every pair was found, and is in the tray.
     signal won()
     // The first pair was found.
@@ -120,7 +122,9 @@ FocusScope {
     Rectangle {
         id: practice
         visible: view.practises
-        x: Theme.gap
+        x: heads ? table.x + view.inset : Theme.gap
+        // Whether everything above the cards begins and ends with them.
+        readonly property bool heads: view.upright && width + progress.implicitWidth + (view.skipsBelow ? 0 : skip.width + Theme.gap) + Theme.gap <= table.width - 2 * view.inset
         y: view.broad ? table.y : view.wordsAt + (view.wordsHigh - height) / 2
         width: named.width + 1.6 * Theme.gap
         height: named.height + 0.5 * Theme.gap
@@ -183,7 +187,7 @@ FocusScope {
     Rectangle {
         id: pill
         objectName: "pill"
-        anchors { top: cards.bottom; topMargin: (view.upright ? 20 : 8) * Theme.unit; horizontalCenter: cards.horizontalCenter }
+        anchors { top: cards.bottom; topMargin: (view.upright ? 20 : 8) * Theme.unit; horizontalCenter: view.upright ? view.horizontalCenter : cards.horizontalCenter }
         // A hint that is seen or read needs no announcement any more.
         visible: view.board.wait !== "" && !(view.speaking && (view.marks || view.said))
         width: waiting.width + dots.width + 3.5 * 0.8 * Theme.gap
@@ -221,7 +225,8 @@ FocusScope {
         id: skip
         objectName: "skip"
         most: view.broad ? view.side - Theme.gap : view.width - 2 * Theme.gap
-        x: view.broad ? Theme.gap : view.skipsBelow ? cards.x + (cards.width - width) / 2 : view.width - width - Theme.gap
+        x: view.broad ? Theme.gap : view.skipsBelow ? cards.x + (cards.width - width) / 2
+         : practice.heads ? table.x + table.width - width - view.inset : view.width - width - Theme.gap
         y: view.broad ? table.y + table.height - height
          : view.skipsBelow ? view.height - height - Theme.gap : view.wordsAt + (view.wordsHigh - height) / 2
         visible: view.practises
@@ -375,11 +380,13 @@ FocusScope {
 
             Rectangle {
                 visible: place.rest > 0
-                anchors { fill: parent; margins: parent.width * 0.05 }
+                anchors.centerIn: parent
+                // By its size: corners that are drawn larger by a scale look ragged.
+                width: 0.9 * parent.width * (1 + 0.24 * place.proud) * (1 + 0.09 * place.cheer)
+                height: width
                 opacity: place.rest * place.frame
                 radius: width * 0.12
                 color: Theme.leaf
-                scale: (1 + 0.24 * place.proud) * (1 + 0.09 * place.cheer)
             }
             Rectangle {
                 visible: place.forward > 0

@@ -14,6 +14,7 @@ FocusScope {
     property string code: ""
     // The lines of a drawing above the title, on a square of 24; empty for none.
     property string sign: ""
+    property real thick: 2.2
     // Where the middle of the card is.
     property point middle: Qt.point(width / 2, height / 2)
     // Where the face of the one who asks begins, below the card, which then is what it says; 0 where there is no face.
@@ -122,7 +123,7 @@ FocusScope {
                     scale: (calm.speaker > 0 ? 3.4 : 2.6) * Theme.unit
                     path: calm.sign
                     ink: Theme.ink
-                    thick: 2.2
+                    thick: calm.thick
                 }
             }
             Balanced {

@@ -119,7 +119,7 @@ Window {
         LayoutMirroring.enabled: Theme.mirrored
         LayoutMirroring.childrenInherit: true
         // A form without an onlooker stands in the middle.
-        readonly property point middle: Qt.point(x + width / 2, root.room / 2)
+        readonly property point middle: Qt.point(x + (boardView.visible ? boardView.middle : width / 2), root.room / 2)
         readonly property bool unwatched: root.avatar.away && root.kiosk.screen === "form"
         width: root.wide && !root.whole && !unwatched ? root.width * (attractView.visible ? 0.64 : 0.715) : root.width
         // On an upright screen the assistant stands below: with its sentence, alone, or not at all. It makes room for
@@ -276,7 +276,8 @@ Window {
         speaker: root.faceBelow
         silent: true
         breathes: true
-        sign: "M8 5 V19 M16 5 V19"
+        sign: "M8 4 V20 M16 4 V20"
+        thick: 4.7
         title: root.words["pause-title"]
         line: root.kiosk.pauseLine
         lineSize: Theme.size(40)
@@ -307,9 +308,12 @@ Window {
         share: root.wide ? (attractView.visible ? 0.6 : 0.52) : root.texts <= 1.15 ? (boardView.visible ? 0.68 : attractView.visible ? 0.88 : root.kiosk.screen === "introduction" ? 0.65 : 0.72) : 0.64
         broad: !root.wide
         calls: root.accompanied && attractView.visible
+        cheers: done
         leads: root.asking || !root.speaks
         hushed: root.asking && !root.wide
-        readonly property string turn: boardView.visible && root.board.untouched && root.board.open ? root.words["game-begin"] : ""
+        readonly property bool done: boardView.visible && boardView.last.length > 0 && !root.board.practice
+        readonly property string turn: done ? root.words["game-found"]
+            : boardView.visible && root.board.untouched && root.board.open ? root.words["game-begin"] : ""
         aside: !root.avatar.present || root.whole ? "" : !root.wide ? (root.kiosk.asks === "" && !root.kiosk.asksStillThere ? turn : "")
              : root.kiosk.asksStillThere ? root.words["still-there-line"]
              : root.kiosk.asks !== "" ? "" : attractView.visible ? root.attract.line
@@ -344,7 +348,8 @@ Window {
         visible: corner.visible && root.kiosk.step >= 0
         opacity: corner.opacity
         readonly property bool aside: root.wide && !root.whole
-        x: !aside ? Theme.gap : corner.atLeft ? corner.x + corner.width + 1.2 * Theme.gap : corner.x - width - 1.2 * Theme.gap
+        // Beside the place of the button that comes and goes, so that they stay where they are.
+        x: !aside ? Theme.gap : corner.atLeft ? 2.2 * Theme.gap + corner.fullWidth : corner.x + corner.width - corner.fullWidth - 1.2 * Theme.gap - width
         y: aside ? corner.y + (corner.step - corner.spacing - height) / 2 : root.room - height - Theme.gap
     }
     Feast {

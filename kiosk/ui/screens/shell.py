@@ -37,6 +37,7 @@ FIXED = (
     "practice-title",
     "practice-skip",
     "game-begin",
+    "game-found",
     "result-title",
     "result-pairs-label",
     "result-moves-label",
