@@ -142,6 +142,7 @@ PageFrame {
                         broad: large && view.width < view.height
                         roomy: view.short && Theme.textSize <= 1.15
                         words: modelData.text
+                        needed: modelData.required
                         on: view.consent.ticks.includes(modelData.id)
                         note: view.words[modelData.required ? "consent-required" : "consent-optional"]
                         warning: view.consent.missing.includes(modelData.id) ? view.words["consent-missing"] : ""

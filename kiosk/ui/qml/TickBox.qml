@@ -6,7 +6,9 @@ import "."
 Choosable {
     id: box
 
+    // What it is, in a word or two, and whether it has to be ticked.
     property string note: ""
+    property bool needed: false
     property string warning: ""
     // Where there is height for it.
     property bool roomy: false
@@ -15,8 +17,8 @@ Choosable {
     // On a page with much height.
     property bool large: false
 
-    horizontalPadding: (broad ? 0.85 : 0.7) * Theme.gap
-    verticalPadding: (broad ? 1.1 : roomy ? 0.7 : 0.45) * Theme.gap
+    horizontalPadding: (large ? 28 : 17) * Theme.unit
+    verticalPadding: (broad ? 0.8 : roomy ? 0.7 : 0.45) * Theme.gap
     font.pixelSize: large ? Theme.size(36) : Theme.reading
     Accessible.role: Accessible.CheckBox
     Accessible.name: words
@@ -35,10 +37,12 @@ Choosable {
     }
     contentItem: Item {
         id: parts
-        // What the box is, at its right; where that leaves the words little room, below them.
+        // What the box is, at its right; where that leaves the words little room, and on an upright page, below them.
         readonly property real after: (box.broad ? 0.7 : 1) * Theme.gap
         readonly property real room: box.availableWidth - mark.width - after
-        readonly property bool beside: tag.visible
+        readonly property bool noted: box.note !== "" && box.warning === ""
+        readonly property bool beside: noted && !box.broad && tag.width + Theme.gap < 0.4 * room
+        readonly property bool below: noted && box.broad && tag.width <= room
         implicitHeight: Math.max(box.large ? 76 * Theme.unit : mark.height, told.height)
         implicitWidth: mark.width
         Rectangle {
@@ -69,7 +73,7 @@ Choosable {
             id: told
             x: Theme.across(mark.width + parts.after, width, parts.width)
             y: (parts.height - height) / 2
-            width: parts.room - (parts.beside ? tag.implicitWidth + Theme.gap : 0)
+            width: parts.room - (parts.beside ? tag.width + Theme.gap : 0)
             Balanced {
                 width: parent.width
                 text: box.words
@@ -81,24 +85,38 @@ Choosable {
                 textFormat: Text.PlainText
                 width: parent.width
                 visible: text !== ""
-                text: box.warning || (parts.beside ? "" : box.note)
+                text: box.warning || (parts.beside || parts.below ? "" : box.note)
                 horizontalAlignment: LayoutMirroring.enabled ? Text.AlignLeft : undefined
                 font { pixelSize: Theme.small; bold: box.warning !== "" }
                 wrapMode: Text.Wrap
                 color: box.warning ? Theme.deepAmber : Theme.faintInk
             }
+            // The place of what the box is.
+            Item {
+                visible: parts.below
+                width: parent.width
+                height: tag.height + 10 * Theme.unit
+            }
         }
-        Text {
+        Rectangle {
             id: tag
-            visible: box.note !== "" && box.warning === "" && implicitWidth + Theme.gap < 0.4 * parts.room
-            textFormat: Text.PlainText
-            x: Theme.across(parts.width - width, width, parts.width)
-            y: (parts.height - height) / 2
-            text: box.note
-            // It has been done; its place stays, so that the words do not move.
-            opacity: box.on ? 0 : 1
-            font { pixelSize: Theme.small; bold: true }
-            color: Theme.faintInk
+            visible: parts.beside || parts.below
+            x: parts.below ? told.x + Theme.across(0, width, told.width) : Theme.across(parts.width - width, width, parts.width)
+            y: parts.below ? told.y + told.height - height : (parts.height - height) / 2
+            width: label.implicitWidth + 32 * Theme.unit
+            height: label.implicitHeight + 6 * Theme.unit
+            radius: height / 2
+            color: box.needed && !box.on ? Theme.sand : Theme.white
+            border { color: Theme.slot; width: 2 * Theme.unit }
+            Text {
+                id: label
+                anchors.centerIn: parent
+                textFormat: Text.PlainText
+                text: box.note
+                font { pixelSize: box.large ? Theme.size(28) : Theme.small; bold: true }
+                color: Theme.ink
+                Accessible.ignored: true
+            }
         }
     }
 }
