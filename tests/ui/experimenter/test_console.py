@@ -309,6 +309,19 @@ def test_one_line_tells_that_all_is_well_or_what_is_not(assigner: Desk, monkeypa
     assigner.wait_until(lambda: not assigner.panel.property("health")["well"])
     assert assigner.panel.property("health")["summary"] == "Disk: only 100 MiB free: make room this evening"
     assert shows(assigner.app.window.contentItem(), NO_ALARM)
+    # What it is stands in the notice alone.
+    assert shows(assigner.app.window.contentItem(), "needs a look")
+    assert not shows(assigner.app.window.contentItem(), "only 100 MiB free: make room this evening")
+
+
+def test_the_shortcuts_are_one_press_away_and_the_keyboard_is_on_their_page_then(assigner: Desk) -> None:
+    assigner.open_panel()
+    title = assigner.panel.property("shortcuts")["title"]
+    assert not shows(assigner.app.window.contentItem(), title)
+    tab_to(assigner, "panel-shortcuts")
+    assigner.press(Qt.Key.Key_Return)
+    assert shows(assigner.app.window.contentItem(), title)
+    assert held(assigner) == "panel-next"
 
 
 def test_a_voice_that_is_lost_is_written_down_and_shown_among_the_days_events(assigner: Desk) -> None:

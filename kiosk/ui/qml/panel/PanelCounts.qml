@@ -12,7 +12,7 @@ PanelSection {
     signal asked()
 
     readonly property real first: width * 0.16
-    readonly property real second: width * 0.15
+    readonly property real second: width * 0.17
     readonly property real between: 0.6 * Theme.gap
     readonly property real other: (width - first - second - between - 1.6 * Theme.gap) / 4
 
@@ -99,7 +99,7 @@ PanelSection {
         parent: counts
         anchors { top: parent.top; right: parent.right; margins: 0.8 * Theme.gap }
         objectName: "names"
-        width: implicitWidth
+        width: Math.min(Math.ceil(implicitWidth), Math.floor(0.6 * counts.width))
         visible: counts.records.cells.length > 0
         words: counts.named ? counts.words["console-names-hide"] : counts.words["console-names-show"]
         onClicked: counts.asked()

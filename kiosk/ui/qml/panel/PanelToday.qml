@@ -10,6 +10,8 @@ Item {
     required property PanelScreen panel
     required property bool wide
     required property real space
+    // How much of it is seen at once.
+    required property real seen
     readonly property var words: panel.words
     // An upright screen has room for longer lines, and so for larger ones.
     readonly property real size: Theme.dense * (wide ? 1.08 : 1.18)
@@ -41,8 +43,8 @@ Item {
             width: parent.width
             panel: today.panel
             wide: today.wide
-            // Beside the others it ends with them, where something stands at its foot.
-            least: today.wide && today.panel.choices.underWay && today.panel.records.resumable.length === 0 ? today.foot : 0
+            // Beside the others it ends with them, if what stands at its foot is seen then.
+            least: today.wide && today.panel.choices.underWay && today.panel.records.resumable.length === 0 ? Math.min(today.foot, today.seen) : 0
         }
         PanelResume { width: parent.width; panel: today.panel }
     }

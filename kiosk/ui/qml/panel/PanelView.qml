@@ -28,9 +28,12 @@ FocusScope {
         id: head
         anchors { top: parent.top; left: parent.left; right: parent.right; margins: view.space }
         height: Math.max(close.height, clock.height, title.height)
+        // Where large words leave too little room, the title is what can be spared.
+        readonly property bool tight: title.implicitWidth + pages.width + clock.width + close.width + 3 * Theme.gap > width
 
         PlainText {
             id: title
+            visible: !head.tight
             y: (head.height - height) / 2
             text: view.words["console-title"]
             font { pixelSize: Theme.dense * 1.35; bold: true }
@@ -38,7 +41,8 @@ FocusScope {
         }
         Row {
             id: pages
-            anchors { left: title.right; leftMargin: Theme.gap; verticalCenter: title.verticalCenter }
+            x: head.tight ? 0 : title.width + Theme.gap
+            anchors.verticalCenter: parent.verticalCenter
             spacing: 9 * Theme.unit
             PanelButton {
                 objectName: "panel-today"
@@ -63,7 +67,7 @@ FocusScope {
         PlainText {
             id: clock
             objectName: "today-clock"
-            anchors { right: close.left; rightMargin: Theme.gap; verticalCenter: title.verticalCenter }
+            anchors { right: close.left; rightMargin: Theme.gap; verticalCenter: parent.verticalCenter }
             text: view.panel.today.clock
             font { pixelSize: Theme.dense * 1.8; bold: true }
             color: Theme.ink
@@ -71,7 +75,7 @@ FocusScope {
         PanelButton {
             id: close
             objectName: "panel-close"
-            anchors.right: parent.right
+            anchors { right: parent.right; verticalCenter: parent.verticalCenter }
             words: view.words["console-close"]
             focus: true
             onClicked: view.panel.wish("panel", "")
@@ -114,6 +118,7 @@ FocusScope {
                 width: parent.width
                 panel: view.panel
                 wide: view.wide
+                seen: pane.height
                 space: view.space
             }
             PanelNext {
