@@ -54,10 +54,13 @@ PageFrame {
         readonly property real small: Math.floor(Math.min((width - numbers - 3 * Theme.gap) / 4.6, 190 * Theme.unit,
             ((view.room - (view.boards - 1) * Theme.gap) / view.boards - 2 * pad - numbers) / 2))
         readonly property real most: Math.floor(Math.min((width - 2 * numbers - 0.5 * Theme.gap) / view.across,
-                (view.room - telling.height - numbers - 0.6 * Theme.gap - 2 * pad) / view.down))
+                (view.room - telling.height - numbers - 0.6 * Theme.gap - pad - floor) / view.down))
         readonly property real cell: view.abreast ? scenes.cell : small
-        readonly property real numbers: 34 * Theme.unit
-        readonly property real pad: (view.abreast ? 0.8 : 0.5) * Theme.gap
+        // Room for the arrow of a mark, above the cards.
+        readonly property real numbers: (view.abreast ? 24 : 34) * Theme.unit
+        readonly property real pad: 0.95 * Theme.gap
+        // Below the words, as much as above the cards that have no arrow.
+        readonly property real floor: 1.7 * Theme.gap
 
         width: view.abreast ? (view.column - (view.boards - 1) * Theme.gap) / view.boards : view.column
         height: view.abreast ? scenes.tallest : Math.max(board.height + numbers, telling.height) + 2 * pad
@@ -118,7 +121,7 @@ PageFrame {
             horizontalAlignment: view.abreast ? Text.AlignHCenter : Text.AlignLeft
             color: Theme.ink
         }
-        readonly property real wish: board.y + board.height + 0.6 * Theme.gap + telling.height + pad
+        readonly property real wish: board.y + board.height + 0.6 * Theme.gap + telling.height + floor
     }
 
     Grid {
