@@ -79,9 +79,32 @@ PageFrame {
     readonly property bool calm: accompanied && !tight && Theme.textSize <= 1.15 && form.items.length <= 3
         && form.items.every(item => ["integer", "single", "text"].includes(item.kind) && !item.exempts)
 
+    // How large the options of such a page are where all stand in two columns, as wide; 0 where they do not fit so.
+    readonly property real paired: !calm || upright || alone || mirrored || pairedHeight() > room ? 0
+        : [34, 32, 31, 30, 29].map(Theme.size).find(size => pairs(size)) ?? 0
+    FontMetrics {
+        id: thin
+        font.pixelSize: 100
+    }
+    function pairs(size: real): bool {
+        const wide = (column - 2.4 * Theme.gap - 12 * Theme.unit) / 2 - 86 * Theme.unit
+        return form.items.every(item => item.kind === "integer"
+            || item.kind === "single" && item.options.every(option => thin.advanceWidth(option.text) * size / 100 <= wide))
+    }
+    function pairedHeight(): real {
+        let tall = 0
+        for (const item of form.items) {
+            const lines = Math.ceil(letters.advanceWidth(item.text) * Theme.body / 100 / (column - 2.4 * Theme.gap))
+            const rows = Math.ceil((item.options?.length ?? 0) / 2)
+            tall += form.hidden.includes(item.id) ? 0 : item.kind === "integer" ? 124 * Theme.unit
+                : lines * 1.37 * Theme.body + (48 + 88 * rows) * Theme.unit
+        }
+        return tall
+    }
+
     // Whether a number stands beside its text: an upright screen's cards are broad enough for both.
     function inline(item: var): bool {
-        return upright && !alone && Theme.textSize <= 1.15 && item.kind === "integer" && !item.exempts
+        return (upright || paired > 0) && !alone && Theme.textSize <= 1.15 && item.kind === "integer" && !item.exempts
             && letters.advanceWidth(item.text) * Theme.size(38) / 100 + 470 * Theme.unit <= column - 2.4 * Theme.gap
     }
     // Whether they stand beside the number in its card, on a wide screen whose helper stands beside the page.
@@ -195,7 +218,7 @@ PageFrame {
         const beside = keyboard.field === null ? 0
             : Math.max(0, Math.min(height - tall, foot - tall - Theme.gap, begin + home.y + keyboard.field.mapToItem(home, 0, keyboard.field.height / 2).y - tall / 2))
         if (Math.max(before, after) >= wide)
-            return Qt.point(after >= wide ? width + (after - wide) / 2 : -(before + wide) / 2, 5 * Theme.gap)
+            return Qt.point(after >= wide ? width + (after - (accompanied ? Theme.gap : 0) - wide) / 2 : -(before + wide) / 2, 5 * Theme.gap)
         if ((width - column) / 2 >= wide)
             return Qt.point(width - wide - ((width - column) / 2 - wide) / 2, beside)
         if (Window.height - height >= tall)
@@ -303,6 +326,7 @@ PageFrame {
                     dense: view.dense
                     tight: view.tight
                     calm: view.calm
+                    paired: view.paired
                     loosened: pane.loosened
                     large: view.width < view.height && view.form.items.length < 5
                     beside: view.own || view.rowText > 0 && view.scales(modelData)
@@ -314,7 +338,7 @@ PageFrame {
                     leastLines: view.mixed ? 2 : view.mostLines
                     inline: view.inline(modelData)
                     // The keys of a number come into its card and move nothing.
-                    least: view.calm && modelData.kind === "integer" && Theme.screenKeys !== "never" ? view.stripHeight + 24 * Theme.unit : 0
+                    least: view.calm && view.paired === 0 && modelData.kind === "integer" && Theme.screenKeys !== "never" ? view.stripHeight + 24 * Theme.unit : 0
                     onEntered: field => keyboard.field = field
                 }
             }

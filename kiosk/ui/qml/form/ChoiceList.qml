@@ -14,6 +14,8 @@ Flow {
     required property bool alone
     required property bool dense
     property bool large: false          // whether there is much height for the page
+    // How large they are in two columns, all as wide; 0 where they do not stand so.
+    property real paired: 0
     required property real tall         // how high an option is at least
     signal picked(string option)
 
@@ -68,6 +70,8 @@ Flow {
     // a row what is left. So what stands in two rows, or in two lists, begins at the same places.
     readonly property real gridGap: 12 * Theme.unit
     readonly property var gridded: {
+        if (paired > 0)
+            return options.map(() => Math.floor((width - gridGap) / 2))
         const wishes = []
         for (let i = 0; i < buttons.count; i++)
             wishes.push((buttons.itemAt(i) as Choosable)?.implicitWidth ?? 0)
@@ -138,7 +142,7 @@ Flow {
             height: Math.max(implicitHeight, list.tall)
             width: list.stacked ? list.width : list.flowing ? (list.gridded.length > 0 ? list.gridded : list.filled)[index] : list.tiled ? list.tile : Math.min(implicitWidth, list.width)
             words: modelData.text
-            font.pixelSize: list.alone ? Theme.body : list.large ? Theme.size(34) : Theme.reading
+            font.pixelSize: list.paired > 0 ? list.paired : list.alone ? Theme.body : list.large ? Theme.size(34) : Theme.reading
             leftPadding: (list.narrow ? 14 : list.even ? 20 : 22) * Theme.unit
             rightPadding: (list.narrow ? 16 : list.even ? 16 : 30) * Theme.unit
             verticalPadding: (list.alone ? 16 : list.narrow ? 3 : 10) * Theme.unit

@@ -40,6 +40,8 @@ Item {
     readonly property var answer: form.answers[item.id]
     readonly property bool refused: form.refused.includes(item.id)
     readonly property bool missed: form.missing.includes(item.id) || refused
+    // How large the options of its page are in two columns; 0 where they do not stand so.
+    property real paired: 0
     // Whether there is room enough on its page.
     property bool calm: false
     // How much of what can be added to the distances of this page is added, from 0 to 1.
@@ -149,6 +151,17 @@ Item {
                     wrapMode: Text.Wrap
                     color: Theme.deepAmber
                 }
+            }
+            // What a number may be, beside it as soon as something is typed, where there is room for that.
+            PlainText {
+                readonly property real room: way.x - told.x - question.contentWidth - 2 * Theme.gap
+                visible: box.inline && !Theme.mirrored && implicitWidth <= room
+                opacity: ((way.item as NumberField)?.text ?? "") !== "" ? 1 : 0
+                x: way.x - implicitWidth - Theme.gap
+                y: (asked.height - height) / 2
+                text: box.item.range ?? ""
+                font.pixelSize: Theme.small
+                color: Theme.faintInk
             }
             Loader {
                 id: way
@@ -276,6 +289,7 @@ Item {
             alone: box.alone
             dense: box.form.items.length > 3
             large: box.airy
+            paired: box.paired
             tall: (box.tight || (Theme.textSize > 1.15 && !box.large) || box.form.items.length > 3 ? 62 : box.airy ? 84 : 76) * Theme.unit
             onPicked: option => several ? box.form.toggle(box.item.id, option) : box.form.choose(box.item.id, option)
         }

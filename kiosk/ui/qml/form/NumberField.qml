@@ -102,6 +102,11 @@ Row {
         // As wide as the longest number; digits of another script may be wider still.
         width: Math.max(170 * Theme.unit * Theme.textSize, Math.min(asked.implicitWidth + leftPadding + rightPadding, 0.4 * number.room),
                         Math.max(metrics.advanceWidth(number.widest), contentWidth) + leftPadding + rightPadding + 8 * Theme.unit)
+        height: 1.37 * Theme.body + 32 * Theme.unit
+        topPadding: 2 * Theme.unit
+        bottomPadding: 2 * Theme.unit
+        font { pixelSize: Theme.size(50); bold: true }
+        verticalAlignment: TextInput.AlignVCenter
         horizontalAlignment: TextInput.AlignHCenter
         longest: number.widest.length
         validator: RegularExpressionValidator { regularExpression: new RegExp(number.pattern) }

@@ -36,7 +36,7 @@ Rectangle {
     // Or a wide screen's margin beside it.
     readonly property bool roomy: Window.width - parent.width >= 440 * Theme.unit
     readonly property real keyWidth: numbers ? (strip ? 70 : flat ? 118 : broad ? 150 : roomy ? 108 : 80) * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
-    readonly property real keyHeight: (numbers ? (strip ? 80 : flat ? 104 : roomy ? 76 : 68) : 60) * Theme.unit
+    readonly property real keyHeight: (numbers ? (strip ? 80 : flat ? 104 : roomy ? 80 : 68) : 60) * Theme.unit
 
     width: numbers ? keys.width + 1.2 * Theme.gap : parent.width
     height: keys.height + 1.2 * Theme.gap
@@ -83,6 +83,7 @@ Rectangle {
             Backspace {
                 visible: key.drawn
                 anchors.centerIn: parent
+                scale: (keyboard.flat && !keyboard.strip ? 2.4 : keyboard.numbers ? 1.8 : 1.5) * Theme.unit
             }
         }
     }

@@ -79,7 +79,7 @@ TextField {
         textFormat: Text.PlainText
         text: field.hint
         horizontalAlignment: field.digits ? Text.AlignHCenter : undefined
-        font: field.font
+        font.pixelSize: Theme.body
         fontSizeMode: Text.HorizontalFit
         minimumPixelSize: Theme.size(24)
         color: Theme.faintInk
