@@ -425,6 +425,18 @@ def test_no_control_moves_when_a_sentence_can_be_heard_again(app: App, layout: s
 
 
 @STILL
+def test_the_stop_button_is_in_the_corner_and_the_others_above_it_on_an_upright_screen(app: App) -> None:
+    app.screens.kiosk.begin(["en", "it"], "en", QUIET.consent)
+    app.screens.avatar.say("Look at column 2.")
+    resize(app.window, "upright")
+    lay_out(app.window)
+    names = ("control-say-again", "control-sound", "control-text-size", "control-language", "control-stop")
+    places = [place(find(app, name)) for name in names if find(app, name).isVisible()]
+    assert places == sorted(places, key=lambda one: one.top())
+    assert len({one.left() for one in places}) == 1
+
+
+@STILL
 def test_in_a_pause_the_helper_is_seen_with_its_eyes_shut_and_says_nothing(app: App) -> None:
     app.screens.avatar.say("Look at column 2.")
     app.screens.avatar.feel(Mood.HAPPY)
