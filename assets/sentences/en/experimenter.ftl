@@ -30,9 +30,9 @@ console-cannot-resume = It cannot go on: { $why }
 
 console-title = For the experimenter
 console-close = Close
-console-keys = Tab and arrows go around, Enter does it, Esc closes. Nobody at it for a minute: it closes by itself.
+console-keys = Tab and arrows go around, Enter does it, Esc closes. Left alone for a minute, it closes by itself.
 console-all-well = All is well
-console-session-none = Nobody is there
+console-session-none = No visitor is there
 console-session-paused = A session is under way; it waits
 
 ## The first page
@@ -85,8 +85,8 @@ console-voice-changed = another voice pack than in earlier sessions; "recollect 
 console-disk = Disk
 console-disk-free = { $free } free
 console-disk-warn = only { $free } free: make room this evening
-console-disk-refuse = only { $free } free: nobody can begin
-console-disk-unknown = nobody can tell how much is free
+console-disk-refuse = only { $free } free: no session can begin
+console-disk-unknown = how much is free cannot be seen
 console-database = Database
 console-backup-none = written to; no copy yet
 console-backup-made = written to; last copy { $ago }
@@ -112,7 +112,7 @@ console-policy = Policy
 console-study = Study
 console-pin-line-name = PIN
 console-pin-set = is asked for
-console-pin-none = none: every session is a trial, and anybody can open this panel
+console-pin-none = none: every session is a trial, and everyone can open this panel
 console-screen = Screen
 
 ## Counts
@@ -146,7 +146,7 @@ console-status-abandoned = abandoned
 console-status-stopped = stopped
 console-status-withdrawn = stopped by the visitor
 console-status-interrupted = interrupted
-console-stage-attract = nobody there
+console-stage-attract = no visitor
 console-stage-about = about the study
 console-stage-consent = consent
 console-stage-age = age
@@ -181,7 +181,7 @@ console-note-voice-changed = voice: { $what }
 console-note-disk-space-changed = disk: { $what }
 console-room-enough = room again
 console-room-warn = little room left
-console-room-refuse = no room left; nobody can begin
+console-room-refuse = no room left; no session can begin
 
 ## What can be done
 

@@ -97,8 +97,8 @@ def test_every_deviation_has_a_line_in_every_language(noted: AuditEvent, languag
             'another voice pack than in earlier sessions; "recollect verify" names them',
         ),
         (replace(WELL, free_space=FreeSpace(300)), "Disk", "only 300 MiB free: make room this evening"),
-        (replace(WELL, free_space=FreeSpace(3)), "Disk", "only 3 MiB free: nobody can begin"),
-        (replace(WELL, free_space=None), "Disk", "nobody can tell how much is free"),
+        (replace(WELL, free_space=FreeSpace(3)), "Disk", "only 3 MiB free: no session can begin"),
+        (replace(WELL, free_space=None), "Disk", "how much is free cannot be seen"),
         (replace(WELL, last_backup=BackupOutcome(NOW, None, "no room")), "Database", "the last copy failed: no room"),
         (replace(WELL, audit_error="it could not be written"), "Database", "it could not be written"),
         (
@@ -114,7 +114,7 @@ def test_every_deviation_has_a_line_in_every_language(noted: AuditEvent, languag
         (
             replace(WELL, has_pin=False),
             "PIN",
-            "none: every session is a trial, and anybody can open this panel",
+            "none: every session is a trial, and everyone can open this panel",
         ),
         (replace(WELL, supervised=False), "Supervisor", "none; if the kiosk fails, it stays off"),
         (replace(WELL, screen="the desktop gets some keys", screen_well=False), "Screen", "the desktop gets some keys"),
