@@ -105,14 +105,11 @@ def test_without_a_code_nothing_is_said_about_withdrawing(debriefed: Booth) -> N
     assert not debriefed.sees("code")
 
 
-def test_the_card_to_take_home_says_what_the_study_was_about(debriefed: Booth) -> None:
-    assert not debriefed.sees("summary")
+def test_the_qr_code_also_says_what_the_study_was_about(debriefed: Booth) -> None:
     debriefed.app.screens.debrief.give_summary("We study how a robot can help.")
-    summary = debriefed.item("summary")
-    assert summary.property("text") == "We study how a robot can help."
-    qr, go = debriefed.item("qr"), debriefed.item("continue")
-    card = [each.mapRectToScene(each.boundingRect()) for each in (summary, debriefed.item("code"), qr)]
-    assert all(place.bottom() < go.mapRectToScene(go.boundingRect()).top() for place in card)
+    assert unquote(debriefed.app.screens.debrief.payload).endswith("&body=We study how a robot can help.")
+    debriefed.app.screens.debrief.give_contact("")
+    assert debriefed.app.screens.debrief.payload == f"Please delete my data: {CODE}\nWe study how a robot can help."
 
 
 def test_the_result_shows_the_pairs_that_were_found_and_the_hints_only_if_there_were_any(booth: Booth) -> None:

@@ -11,7 +11,7 @@ PageFrame {
     required property string labName
 
     // As much of the height as the text leaves, so that a page that fits does not scroll.
-    readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min(350 * Theme.unit, room - texts.height - 2.6 * Theme.gap))
+    readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min((signed && width < height ? 340 : 350) * Theme.unit, room - texts.height - 2.6 * Theme.gap))
     // Whole pixels for each square, so that their edges are sharp.
     readonly property int square: Math.max(2, Math.floor(side / Math.max(1, debrief.squares)))
 
@@ -22,8 +22,8 @@ PageFrame {
         : room < 720 * Theme.unit ? Theme.small : Theme.reading
     // What stands on the card is read from it at home, in a photograph.
     readonly property real noted: width < height && fits(Theme.size(32), Theme.reading, 0.5) ? Theme.reading : Theme.small
-    // How far the lines are apart, in gaps: further where the helper has taken one of them.
-    readonly property real apart: accompanied && fits(Theme.size(30), Theme.small, 1) ? 1 : 0.5
+    // How far the lines are apart, in gaps: further where there is room for that.
+    readonly property real apart: (accompanied || width < height) && fits(Theme.size(32), noted, 1) ? 1 : 0.5
     readonly property string kept: words["debrief-take-home"] + (labName === "" ? "" : " · " + labName)
     FontMetrics {
         id: letters
@@ -40,14 +40,14 @@ PageFrame {
         const wide = (column - 2.5 * size - Theme.gap) * exact
         const tall = read.reduce((sum, line) => sum + Math.max(2.5 * size, lines(line.text, size, wide) * 1.09 * Math.ceil(1.37 * size)), 0)
         const beside = (column - 290 * Theme.unit - 2.5 * Theme.gap) * 0.95
-        const noted = [debrief.withdrawing, debrief.returning, debrief.questions, debrief.summary].reduce((sum, text) => sum + lines(text, cardSize, beside), 0)
+        const noted = [debrief.withdrawing, debrief.returning, debrief.questions].reduce((sum, text) => sum + lines(text, cardSize, beside), 0)
         const heading = lines(kept, 1.08 * Theme.body, beside)
         const card = heading * Math.ceil(1.37 * Theme.body) + 1.38 * Theme.figure + noted * Math.ceil(1.37 * cardSize) + 2.6 * Theme.gap
-        return tall + (read.length + 1) * apart * Theme.gap + Math.max(326 * Theme.unit, card)
+        return tall + (read.length + 1) * apart * Theme.gap + Math.max((width < height ? 326 : 266) * Theme.unit, card)
     }
     // What is added to that where an upright page has room for it.
     readonly property real further: !signed || width > height ? 0
-        : Math.max(0, Math.min(Theme.gap, (0.92 * room - estimate(size, noted, apart)) / read.length))
+        : Math.max(0, Math.min(Theme.gap, (0.95 * room - estimate(size, noted, apart)) / read.length))
     function lines(text: string, size: real, room: real): int {
         return text.split("\n").reduce((sum, part) => sum + Math.ceil(letters.advanceWidth(part) * size / 100 / room), 0)
     }
@@ -71,12 +71,14 @@ PageFrame {
         Item {
             id: parts
             // What is taken home is seen without scrolling.
-            readonly property bool cardFirst: keepsake.visible && texts.height + keepsake.height + Theme.gap > view.room
+            readonly property bool cardFirst: keepsake.visible && texts.height + keepsake.height + apart > view.room
             width: pane.width
-            height: texts.height + keepsake.height + (keepsake.visible ? Theme.gap : 0)
+            height: texts.height + keepsake.height + (keepsake.visible ? apart : 0)
+            // Lines and card stand further apart than the lines, by half of what is free.
+            readonly property real apart: Theme.gap + (view.signed ? Math.max(0, Math.min(1.5 * Theme.gap, (view.room - texts.height - keepsake.height - Theme.gap) / 2)) : 0)
             Row {
                 id: texts
-                y: parts.cardFirst ? keepsake.height + Theme.gap : 0
+                y: parts.cardFirst ? keepsake.height + parts.apart : 0
                 readonly property var lines: view.read
                 readonly property bool halved: pane.width > 1100 * Theme.unit && lines.length > 1 && !view.signed
                 readonly property int first: halved ? view.half(lines.map(line => line.text)) : lines.length
@@ -97,6 +99,8 @@ PageFrame {
                                 text: modelData.text
                                 sign: view.signed ? modelData.sign : ""
                                 size: view.size
+                                // Among lines with headings, one without is a heading itself.
+                                strong: lead === "" && view.read.some(line => line.text.includes("\n"))
                             }
                         }
                     }
@@ -104,7 +108,7 @@ PageFrame {
             }
             Rectangle {
                 id: keepsake
-                y: parts.cardFirst ? 0 : texts.height + Theme.gap
+                y: parts.cardFirst ? 0 : texts.height + parts.apart
                 width: pane.width
                 height: visible ? Math.max(qr.height, told.height) + 1.5 * Theme.gap : 0
                 // Who is not stored has no code, and may have questions all the same.
@@ -195,14 +199,6 @@ PageFrame {
                         text: view.debrief.questions
                         font.pixelSize: view.noted
                         color: Theme.ink
-                    }
-                    Balanced {
-                        objectName: "summary"
-                        width: parent.width
-                        visible: text !== ""
-                        text: view.debrief.summary
-                        font.pixelSize: view.noted
-                        color: Theme.faintInk
                     }
                 }
             }

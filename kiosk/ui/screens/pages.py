@@ -178,6 +178,10 @@ class ResultScreen(ReadingScreen):
         return self._clock
 
 
+SUMMARY_MOST = 120
+"""How many characters of a summary a QR code has room for with squares that a telephone can read."""
+
+
 @QmlElement
 class DebriefScreen(PageScreen):
     """What the study was about, and the code to withdraw with, to be written down or photographed."""
@@ -202,8 +206,8 @@ class DebriefScreen(PageScreen):
         self.given.emit()
 
     def give_summary(self, summary: str) -> None:
-        """Tell in a sentence or two what the study was about, for those who read the card at home."""
-        self._summary = summary
+        """Put what the study was about into the QR code, unless it is too long."""
+        self._summary = summary if len(summary) <= SUMMARY_MOST else ""
         self.given.emit()
 
     def give_code(self, code: str, *, returns: bool = False) -> None:
@@ -235,13 +239,9 @@ class DebriefScreen(PageScreen):
         subject = self._catalogue.text("debrief-subject", code=self._code)
         addresses = _MAIL_ADDRESS.findall(self._contact)
         if len(addresses) == 1:
-            return f"mailto:{addresses[0]}?subject={QUrl.toPercentEncoding(subject).toStdString()}"
-        return f"{subject}\n{self._contact}".rstrip()
-
-    @Property(str, notify=given)
-    def summary(self) -> str:
-        """Return what the study was about."""
-        return self._summary
+            body = f"&body={QUrl.toPercentEncoding(self._summary).toStdString()}" if self._summary else ""
+            return f"mailto:{addresses[0]}?subject={QUrl.toPercentEncoding(subject).toStdString()}{body}"
+        return "\n".join(filter(None, (subject, self._contact, self._summary)))
 
     @Property(str, notify=given)
     def code(self) -> str:
