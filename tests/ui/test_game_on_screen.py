@@ -430,8 +430,8 @@ def test_the_stop_button_is_in_the_corner_and_the_others_above_it_on_an_upright_
     app.screens.avatar.say("Look at column 2.")
     resize(app.window, "upright")
     lay_out(app.window)
-    names = ("control-say-again", "control-sound", "control-text-size", "control-language", "control-stop")
-    places = [place(find(app, name)) for name in names if find(app, name).isVisible()]
+    names = ("control-say-again", "control-text-size", "control-language", "control-stop")
+    places = [place(find(app, name)) for name in names]
     assert places == sorted(places, key=lambda one: one.top())
     assert len({one.left() for one in places}) == 1
 
