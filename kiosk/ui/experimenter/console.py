@@ -212,12 +212,16 @@ class Panel:
         """Show these alarms."""
         self._screen.show_alarms(alarm_rows(alarms, self._catalogue))
 
-    def _open(self) -> None:
+    def write_words(self) -> None:
+        """Give the panel and the card's keys their fixed texts, once."""
         if not self._worded:
             self._worded = True
             told, keys = self._catalogue, self._booth.assigner.study.settings.shortcuts
             self._screen.set_language({name: told.text(name) for name in WORDS})
             self._screen.list_shortcuts(shortcut_rows(shortcuts(keys), told))
+
+    def _open(self) -> None:
+        self.write_words()
         self._write.record(AuditEvent.PANEL_OPENED, {"stage": self._actions.stage.value})
         self._asking.unlocked = True
         self._actions.panel_opened()
@@ -527,6 +531,7 @@ class ExperimenterConsole:
         """Ask for the PIN with keys on the screen, unless something is asked for or shown already."""
         if not self.panel.is_open and not self._asking.asks:
             self._asking.by_touch = True
+            self.panel.write_words()
             self.panel.toggle()
 
     def _voice_changed(self, is_heard: bool, message: str) -> None:  # noqa: FBT001 - Qt's way to tell

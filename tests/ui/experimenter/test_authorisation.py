@@ -364,6 +364,8 @@ def test_a_touch_of_the_corner_or_one_that_moves_asks_for_nothing(touched: Desk,
 
 def test_a_card_that_came_by_touch_is_put_away_by_touch(touched: Desk, qtbot: QtBot) -> None:
     hold(touched, qtbot, until=lambda: touched.card.asks_for is AuthorisationStep.PIN)
+    keys = [touched.item(f"pin-{key}").property("words") for key in ("delete", "enter", "cancel")]
+    assert keys == ["Delete", "Enter", "Cancel"], "the keys have their names before the panel was ever open"
     touched.click("pin-cancel")
     assert touched.card.asks_for is AuthorisationStep.NOTHING
 
