@@ -366,7 +366,10 @@ class ActionController:
                 return
             runner.set_break(taken=bool(choice))
         else:
-            self._dispatch(happened.PauseRequested(at_ms=runner.now_ms()))
+            # The open panel pauses the session already.
+            pause = happened.PauseRequested(at_ms=runner.now_ms())
+            if runner.accepts(pause):
+                runner.dispatch(pause)
             self.paused_by_panel = not choice
         self._show_break(minutes, back)
 

@@ -116,6 +116,7 @@ def test_a_pause_says_when_it_goes_on_and_is_no_longer_than_the_session_allows(a
     assigner.open_panel()
     assert [each["value"] for each in choices(assigner)["breaks"]] == ["5", "10", "15"]
     assigner.click("break-10")
+    assert not assigner.noted, "the break is taken; 'Not now' would deny it"
     assert choices(assigner)["break"] == "10"
     assigner.shortcut(Action.PANEL)
     assert kiosk.property("paused")
