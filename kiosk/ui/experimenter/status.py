@@ -381,11 +381,11 @@ def _cell(name: str, cell: CountCell) -> Row:
     done, quota = cell.fates[Disposition.CONSUMED], cell.quota
     return {
         "name": name,
-        "done": f"{done} / {quota}" if quota else str(cell.fates[Disposition.UNLISTED] or ""),
+        "done": f"{done} / {quota}" if quota else str(cell.fates[Disposition.UNLISTED]),
         "listed": quota > 0,
         "share": min(1.0, done / quota) if quota else 0.0,
         "counts": [
-            str(number or "")
+            str(number)
             for number in (
                 cell.fates[Disposition.DROPPED_OUT],
                 cell.fates[Disposition.OVERRIDDEN],

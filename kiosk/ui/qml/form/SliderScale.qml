@@ -166,18 +166,21 @@ Item {
             border { color: Theme.white; width: 4 * Theme.unit }
         }
     }
-    // In the line as long as nothing is chosen, without the handle: one that stood there would suggest an answer.
+    // As long as nothing is chosen there is no handle: one that stood there would suggest an answer. What there is to do
+    // stands between the ends; in the line where they stand beside it, or leave no room.
     Rectangle {
-        visible: hint.visible
+        visible: hint.visible && !hint.beneath
         anchors { fill: hint; leftMargin: -0.5 * Theme.gap; rightMargin: -0.5 * Theme.gap }
         color: Theme.white
     }
     PlainText {
         id: hint
         objectName: `touch-${scale.item}`
+        readonly property real between: scale.centred ? scale.width - 2 * scale.ends : slider.width - 2 * Math.max(lower.contentWidth, upper.contentWidth)
+        readonly property bool beneath: scale.below && implicitWidth + 2 * Theme.gap <= between
         visible: !scale.answered && !slider.pressed
         x: slider.x + (slider.width - width) / 2
-        y: slider.y + (slider.height - height) / 2
+        y: beneath ? lower.y : slider.y + (slider.height - height) / 2
         width: implicitWidth
         text: scale.touch
         font.pixelSize: scale.level ? Theme.small : Theme.size(scale.own ? 28 : 30)

@@ -90,9 +90,10 @@ TextField {
         radius: Theme.radius
         color: Theme.white
         border { color: field.activeFocus ? Theme.ink : Theme.sea; width: (field.activeFocus ? 5 : 3) * Theme.unit }
+        // Inside of a number, which has buttons beside it.
         FocusRing {
             visible: field.activeFocus
-            reach: 8 * Theme.unit
+            reach: (field.digits ? -8 : 8) * Theme.unit
             radius: Theme.radius + reach
         }
     }

@@ -12,9 +12,8 @@ PanelSection {
     signal asked()
 
     readonly property real first: width * 0.16
-    readonly property real second: width * 0.17
     readonly property real between: 0.6 * Theme.gap
-    readonly property real other: (width - first - second - between - 1.6 * Theme.gap) / 4
+    readonly property real other: (width - first - between - 1.6 * Theme.gap) / 5
 
     readonly property list<string> columns: ["dropped", "overridden", "beyond", "withdrawn"]
 
@@ -27,7 +26,7 @@ PanelSection {
 
     Row {
         PlainText { width: counts.first + counts.between; text: " "; font.pixelSize: counts.size }
-        PanelCell { width: counts.second; words: counts.heading; heading: true; size: counts.size }
+        PanelCell { width: counts.other; words: counts.heading; heading: true; number: !counts.records.listed; size: counts.size }
         Repeater {
             model: counts.columns
             delegate: PanelCell {
@@ -54,7 +53,7 @@ PanelSection {
                 wrapMode: Text.Wrap
             }
             Item {
-                width: counts.second
+                width: counts.other
                 height: done.height
                 Rectangle {
                     visible: cell.modelData.listed
@@ -72,7 +71,7 @@ PanelSection {
                 }
                 PlainText {
                     id: done
-                    x: cell.modelData.listed ? parent.width * 0.56 : 0
+                    x: cell.modelData.listed ? parent.width * 0.56 : parent.width - width
                     text: cell.modelData.done
                     Accessible.name: `${text} ${counts.heading}`
                     font.pixelSize: counts.size

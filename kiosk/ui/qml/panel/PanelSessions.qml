@@ -20,13 +20,13 @@ PanelSection {
             width: parent.width
             spacing: 8 * Theme.unit
             PanelMark { id: mark; well: !row.modelData.odd; size: sessions.size }
-            PanelCell { size: sessions.size; width: row.width * 0.07; words: row.modelData.participant }
+            PanelCell { size: sessions.size; width: row.width * 0.12; words: row.modelData.participant }
             PanelCell { size: sessions.size; width: row.width * 0.13; words: row.modelData.when }
             PanelCell { size: sessions.size; width: row.width * 0.13; words: row.modelData.condition }
             PanelCell { size: sessions.size; width: row.width * 0.19; words: row.modelData.stage }
             PanelCell {
                 size: sessions.size
-                width: row.width * 0.48 - mark.width - 5 * row.spacing
+                width: row.width * 0.43 - mark.width - 5 * row.spacing
                 words: [row.modelData.status, row.modelData.reason, row.modelData.robot].filter(each => each !== "").join(" · ")
             }
         }
