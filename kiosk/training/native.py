@@ -23,6 +23,7 @@ from typing import Any, ParamSpec, TypeVar, cast, get_type_hints
 
 from platformdirs import user_cache_path
 
+from kiosk.files import replace_file
 from kiosk.training.c_source import c_source, flat, plain_function
 
 Given = ParamSpec("Given")
@@ -116,10 +117,8 @@ def compile_library(compiler: str, out: Path) -> None:
 def keep(made: Path, place: Path) -> None:
     """Copy a library to its place, whole or not at all."""
     place.parent.mkdir(parents=True, exist_ok=True)
-    with TemporaryDirectory(prefix="half-", dir=place.parent, ignore_cleanup_errors=True) as folder:
-        half = Path(shutil.copyfile(made, Path(folder) / place.name))
-        half.chmod(0o755)
-        half.replace(place)
+    # What a power cut left of it cannot be loaded, and is compiled anew.
+    replace_file(place, made.read_bytes(), 0o755, durable=False)
 
 
 def native_loop(rule: Callable[Given, Back]) -> Callable[Given, Back]:
