@@ -778,10 +778,7 @@ def from_fields(kind: str, at_ms: int, fields: Mapping[str, Any]) -> Event:
 
 
 def _read(name: str, fields: dict[str, Any]) -> Event:
-    try:
-        kind, read = _KINDS_READ[name]
-    except KeyError:
-        kind, read = _KINDS_READ[name] = _kind_to_read(name)
+    kind, read = _kind_to_read(name)
     try:
         if read is not None:
             return read(fields)
@@ -794,11 +791,8 @@ def _read(name: str, fields: dict[str, Any]) -> Event:
     return event
 
 
-_KindToRead = tuple[type[Event], Callable[[dict[str, Any]], Event] | None]
-_KINDS_READ: dict[str, _KindToRead] = {}
-
-
-def _kind_to_read(name: str) -> _KindToRead:
+@cache
+def _kind_to_read(name: str) -> tuple[type[Event], Callable[[dict[str, Any]], Event] | None]:
     """Return a kind and what reads it fast, if anything does; raises ValueError if there is none of that name."""
     kind = event_kinds().get(name)
     if kind is None:
