@@ -16,8 +16,8 @@ PageFrame {
     // Each answer has a picture where the page is high enough for it.
     readonly property bool upright: width < height
     readonly property bool pictured: upright ? room > 1000 * Theme.unit && Theme.textSize <= 1.15 : accompanied && room > 640 * Theme.unit
-    // How large everything in an answer is, on an upright screen that has the height for it.
-    readonly property real scaled: upright && pictured ? 1.45 : 1
+    // How large everything in an answer is, on a screen that has the room for it.
+    readonly property real scaled: !pictured ? 1 : upright ? 1.9 : Math.max(1, Math.min(1.65, (room / Theme.unit - 110 - 300 * Theme.textSize) / 190))
 
     component Answer: BigButton {
         id: answer
@@ -26,12 +26,13 @@ PageFrame {
         // A drawing of it.
         required property string sign
         readonly property real inside: answers.wish - 2 * horizontalPadding
+        readonly property alias lines: long.implicitHeight
 
         width: answers.wish
         height: answers.tall
         horizontalPadding: (view.upright ? 24 : 32) * Theme.unit
         corner: view.pictured ? 2 * Theme.radius : Infinity
-        font.pixelSize: Theme.size(84 * Math.min(1.25, view.scaled))
+        font.pixelSize: Theme.size(84 * Math.min(1.45, view.scaled))
         Accessible.description: meaning
         contentItem: Item {
             implicitWidth: Math.max(short.implicitWidth, long.implicitWidth)
@@ -44,7 +45,7 @@ PageFrame {
                     anchors.horizontalCenter: parent.horizontalCenter
                     visible: view.pictured
                     width: 190 * view.scaled * Theme.unit
-                    height: (190 * view.scaled + 10) * Theme.unit
+                    height: width + 14 * Theme.unit
                     Rectangle {
                         width: parent.width
                         height: width
@@ -52,10 +53,13 @@ PageFrame {
                         color: Theme.white
                         Drawing {
                             anchors.centerIn: parent
-                            scale: 6.2 * view.scaled * Theme.unit
+                            // Drawn about as large as it is shown: a round line that is enlarged shows its corners.
+                            width: 240
+                            height: 240
+                            scale: 0.62 * view.scaled * Theme.unit
                             path: answer.sign
                             ink: Theme.sea
-                            thick: 1.6
+                            thick: 16
                         }
                     }
                 }
@@ -70,9 +74,11 @@ PageFrame {
                 Balanced {
                     id: long
                     width: answer.inside
+                    // As high in both, so that all of them stands on the same lines.
+                    height: Math.max(yes.lines, no.lines)
                     horizontalAlignment: Text.AlignHCenter
                     text: answer.meaning
-                    font.pixelSize: Theme.size(38)
+                    font.pixelSize: Theme.size(view.pictured && !view.upright ? 44 : 38)
                     color: Theme.white
                     Accessible.ignored: true
                 }
@@ -105,8 +111,8 @@ PageFrame {
             // How high they are at least; large texts need the room themselves.
             readonly property bool airy: Theme.textSize <= 1.15
             // With pictures they take what the page has left.
-            readonly property real filling: view.upright ? Math.min(900, (view.room - told.height - page.spacing) / Theme.unit - 60)
-                : Math.min(580, view.room / Theme.unit - 30)
+            readonly property real filling: view.upright ? Math.min(860, (view.room - told.height - page.spacing) / Theme.unit - 60)
+                : Math.min(760, view.room / Theme.unit - 16)
             readonly property real least: view.pictured ? filling : !abreast ? 260 : view.width < view.height ? (airy ? 560 : 440) : airy ? 400 : 320
             readonly property real tall: Math.max(yes.implicitHeight, no.implicitHeight, least * Theme.unit)
             width: parent.width
@@ -117,7 +123,7 @@ PageFrame {
                 objectName: "age-yes"
                 words: view.words["age-yes"]
                 meaning: view.age.older
-                sign: "M12 3 A2.4 2.4 0 0 1 12 7.8 A2.4 2.4 0 0 1 12 3 M8 15 V12 A2.4 2.4 0 0 1 10.4 9.8 H13.6 A2.4 2.4 0 0 1 16 12 V15 M10.2 12.6 V21 M13.8 12.6 V21"
+                sign: "M120 15 A26 26 0 0 1 120 67 A26 26 0 0 1 120 15 M120 96 V144 M74 130 L92 96 H148 L166 130 M88 220 L120 144 L152 220"
                 focus: true
                 onClicked: view.age.answer(true)
             }
@@ -126,7 +132,7 @@ PageFrame {
                 objectName: "age-no"
                 words: view.words["age-no"]
                 meaning: view.age.younger
-                sign: "M12 5.4 A2.5 2.5 0 0 1 12 10.4 A2.5 2.5 0 0 1 12 5.4 M7.4 16 L9.8 13 H14.2 L16.6 16 M10.3 13.2 V20 M13.7 13.2 V20 M10.3 16.7 H13.7"
+                sign: "M120 84 A22 22 0 0 1 120 128 A22 22 0 0 1 120 84 M120 152 V176 M86 174 L100 152 H140 L154 174 M98 220 L120 176 L142 220"
                 onClicked: view.age.answer(false)
             }
         }
