@@ -365,6 +365,29 @@ def test_the_helper_says_whose_turn_it_is_until_a_card_is_turned(app: App) -> No
     assert said() == []
 
 
+@STILL
+def test_while_one_card_is_up_and_the_helper_is_silent_the_screen_asks_for_a_second(app: App) -> None:
+    def asked() -> bool:
+        pill = find_item(app.window.contentItem(), "pill")
+        return pill is not None and any(i.property("text") == "Now a second card" for i in items(pill))
+
+    board, avatar = app.screens.board, app.screens.avatar
+    board.deal(3, 4, 6, "animals")
+    app.screens.kiosk.show("game")
+    assert not asked()
+    board.reveal(Position(0, 0), "cat")
+    assert asked()
+    avatar.say("Look at column 2.")
+    assert not asked()
+    avatar.clear()
+    assert asked()
+    board.highlight(None, 1)
+    assert not asked()
+    board.clear_highlight()
+    board.reveal(Position(0, 1), "cat")
+    assert not asked()
+
+
 @pytest.mark.parametrize("moves", [True], indirect=True)
 def test_snippets_of_the_feast_never_fall_in_one_line(app: App) -> None:
     """Of those that are seen at one time, no tenth of the height has a third."""

@@ -80,6 +80,7 @@ game-moves =
        *[other] { $moves } moves
     }
 game-begin = It is your turn. Turn over any card.
+game-second = Now a second card
 game-found = All found!
 game-wait-speaking = One moment, I have a hint for you
 game-wait-turning-back = One moment, the cards turn back

@@ -85,6 +85,7 @@ game-moves =
        *[other] { $moves } mosse
     }
 game-begin = Tocca a te. Scopri una carta qualsiasi.
+game-second = Ora una seconda carta
 game-found = Trovate tutte!
 game-wait-speaking = Un momento, ho un suggerimento per te
 game-wait-turning-back = Un momento, le carte si coprono di nuovo

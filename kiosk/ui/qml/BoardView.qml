@@ -17,6 +17,8 @@ FocusScope {
     property bool prepares: false
     // Whether a sentence of the assistant stands on the screen.
     property bool said: false
+    // Where the face begins that stands below the cards, in this item; 0 where none does.
+    property real faceAt: 0
     // Asked of the board once, and not by every card.
     readonly property int rows: board.rows
     readonly property int columns: board.columns
@@ -187,16 +189,24 @@ FocusScope {
     Rectangle {
         id: pill
         objectName: "pill"
-        anchors { top: cards.bottom; topMargin: (view.upright ? 20 : 8) * Theme.unit; horizontalCenter: view.upright ? view.horizontalCenter : cards.horizontalCenter }
+        // What comes next, until the assistant has something to say about it.
+        readonly property bool asksSecond: view.board.oneUp && view.open && !view.marks && !view.said
+        readonly property real under: cards.y + cards.height + (view.upright ? 20 : 8) * Theme.unit
+        x: Math.round(Math.max(0, Math.min(view.width - width, view.middle - width / 2)))
+        // In the middle between cards and face, where no sentence stands there.
+        y: view.speaking || view.said ? under : Math.round(Math.max(under, (cards.y + cards.height + view.faceAt - height) / 2))
         // A hint that is seen or read needs no announcement any more.
-        visible: view.board.wait !== "" && !(view.speaking && (view.marks || view.said))
-        width: waiting.width + dots.width + 3.5 * 0.8 * Theme.gap
+        visible: asksSecond || (view.board.wait !== "" && !(view.speaking && (view.marks || view.said)))
+        opacity: visible ? 1 : 0
+        Behavior on opacity { NumberAnimation { duration: Theme.motion } }
+        width: waiting.width + (asksSecond ? 2.6 * Theme.gap : dots.width + 2.8 * Theme.gap)
         height: waiting.height + (view.upright ? 20 : 6) * Theme.unit
         radius: height / 2
         color: Theme.sand
         Row {
             id: dots
             anchors { left: parent.left; leftMargin: Theme.gap; verticalCenter: parent.verticalCenter }
+            visible: !pill.asksSecond
             spacing: 6 * Theme.unit
             Repeater {
                 model: 3
@@ -210,13 +220,13 @@ FocusScope {
         }
         PlainText {
             id: waiting
-            anchors { left: dots.right; leftMargin: 0.6 * Theme.gap; verticalCenter: parent.verticalCenter }
+            anchors { right: parent.right; rightMargin: (pill.asksSecond ? 1.3 : 1.2) * Theme.gap; verticalCenter: parent.verticalCenter }
             width: Math.min(implicitWidth, view.width - dots.width - 5 * Theme.gap)
             wrapMode: width < implicitWidth ? Text.Wrap : Text.NoWrap
-            text: view.board.wait
+            text: pill.asksSecond ? view.words["game-second"] : view.board.wait
             font.pixelSize: view.upright && Theme.textSize <= 1.15 ? Theme.size(38) : Theme.body
             color: Theme.ink
-            Accessible.role: Accessible.AlertMessage
+            Accessible.role: pill.asksSecond ? Accessible.StaticText : Accessible.AlertMessage
             Accessible.name: text
         }
     }

@@ -220,6 +220,7 @@ Window {
             upright: !root.wide
             prepares: root.prepares
             said: helper.says
+            faceAt: root.wide || !root.avatar.present ? 0 : helper.y + helper.faceTop - stage.y
             onWon: if (!root.board.practice) feast.begin()
             // How a practice goes is clear by now.
             onFirstFound: if (root.board.practice && !root.board.speaking) helper.fade()

@@ -69,6 +69,8 @@ class BoardScreen(QAbstractListModel):
     """The mark of a hint came or went."""
     touched = Signal()
     """The first card was turned, or none of new ones."""
+    turned = Signal()
+    """One card is up and waits for its second, or none does any longer."""
     tapped = Signal(Position)
     """A card was tapped."""
     refused = Signal()
@@ -89,7 +91,7 @@ class BoardScreen(QAbstractListModel):
         self._practice = False
         self._faces: list[_Face] = []
         self._rows = self._columns = self._pairs = self._pairs_found = self._moves = 0
-        self._untouched = False
+        self._untouched = self._one_up = False
         self._wait: BoardWait | None = None
         self._mark_row = self._mark_column = _NOWHERE
         self.looked_at: tuple[int | None, int | None] = (None, None)
@@ -141,20 +143,28 @@ class BoardScreen(QAbstractListModel):
         self.beginResetModel()
         self._faces = faces
         self.endResetModel()
+        self._count_up()
+
+    def _count_up(self) -> None:
+        one_up = len(self.unmatched) == 1
+        if one_up != self._one_up:
+            self._one_up = one_up
+            self.turned.emit()
 
     def reveal(self, position: Position, card: str) -> None:
         """Show one card's picture."""
         face = self._face(position)
         face.card, face.up = card, True
         self._touch()
-        index = self.index(self.location(position))
-        self.dataChanged.emit(index, index)
+        self._tell(position)
+        self._count_up()
 
     def hide(self, positions: tuple[Position, ...]) -> None:
         """Close these cards."""
         for position in positions:
             self._face(position).up = False
             self._tell(position)
+        self._count_up()
 
     def mark_matched(self, positions: tuple[Position, ...]) -> None:
         """Show that these cards are found."""
@@ -162,6 +172,7 @@ class BoardScreen(QAbstractListModel):
             self._face(position).found = True
             self._tell(position)
         self._touch()
+        self._count_up()
         first, second = positions
         picture = self._picture(self._face(first).card)
         self._tray.append(picture)
@@ -318,6 +329,11 @@ class BoardScreen(QAbstractListModel):
     def untouched(self) -> bool:
         """Whether no card of these was turned yet."""
         return self._untouched
+
+    @Property(bool, notify=turned)
+    def oneUp(self) -> bool:  # noqa: N802 - QML's convention
+        """Whether one card is up and waits for its second."""
+        return self._one_up
 
     @Property(bool, notify=waited)
     def open(self) -> bool:

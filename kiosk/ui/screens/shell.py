@@ -37,6 +37,7 @@ FIXED = (
     "practice-title",
     "practice-skip",
     "game-begin",
+    "game-second",
     "game-found",
     "result-title",
     "result-pairs-label",

@@ -80,6 +80,7 @@ game-moves =
        *[other] { $moves } Züge
     }
 game-begin = Du bist dran. Dreh irgendeine Karte um.
+game-second = Jetzt eine zweite Karte
 game-found = Alle gefunden!
 game-wait-speaking = Einen Moment, ich habe einen Tipp für dich
 game-wait-turning-back = Einen Moment, die Karten drehen sich um
