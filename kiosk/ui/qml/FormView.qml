@@ -38,9 +38,29 @@ PageFrame {
     }
     // Whether the words for the ends of all scales of the page break into two lines of six letters' height in width.
     readonly property bool halved: !alone && !dense && Theme.textSize <= 1.15
-        && form.items.every(item => !["likert", "differential", "pictures", "slider"].includes(item.kind) || halves(item.left) && halves(item.right))
-    // How wide they then are.
-    readonly property real ends: !halved ? 0 : own ? 6 * Theme.size(26) : upright ? 6 * Theme.size(28) : 0
+        && form.items.every(item => !rates(item) || halves(item.left) && halves(item.right))
+    // Whether there is room for each in one line, under the middles of the ends of its scale.
+    readonly property bool lined: !alone && !dense && Theme.textSize <= 1.15 && (wider || upright) && lines()
+    // How wide they then are, and those at the other end.
+    // The scale stands in the middle of an upright card, and ends where a row of a wide page ends.
+    readonly property real ends: lined ? upright ? Math.max(widest("left"), widest("right")) : widest("left") : !halved ? 0 : own ? 6 * Theme.size(26) : upright ? 6 * Theme.size(28) : 0
+    readonly property real otherEnds: lined && !upright ? widest("right") : ends
+    // How high the scale of a row is with the words for its ends, and how much of the row is above and below it.
+    readonly property real scaleHeight: lined ? 88 * Theme.unit + 1.37 * Theme.size(26) : halved ? 84 * Theme.unit + 2.36 * Theme.size(26) : 98 * Theme.unit + 1.37 * Theme.size(28)
+    readonly property real rowMargin: (lined ? 24 : halved ? 15 : 18) * Theme.unit
+    function rates(item: var): bool {
+        return ["likert", "differential", "pictures", "slider"].includes(item.kind)
+    }
+    function widest(end: string): real {
+        return Math.max(112 * Theme.unit, ...form.items.filter(rates).map(item => 1.03 * thin.advanceWidth(item[end]) * Theme.size(upright ? 28 : 26) / 100))
+    }
+    function lines(): bool {
+        const wide = upright ? column - 2.4 * Theme.gap : (0.96 - textShare) * (column - 2.4 * Theme.gap)
+        const size = (upright ? 112 : 84) * Theme.unit, one = widest("left"), other = widest("right")
+        const both = upright ? 2 * Math.max(one, other) : one + other
+        return both + Theme.gap <= wide && form.items.every(item => !rates(item) || item.kind === "slider"
+            || wide - both / 2 + size - item.points * size >= 0.45 * size * (item.points - 1))
+    }
     function halves(text: string): bool {
         const gap = letters.advanceWidth(" "), room = 620
         let lines = 1, at = -gap
@@ -58,14 +78,13 @@ PageFrame {
     }
     function ownRows(): real {
         const wide = column - 2.4 * Theme.gap, size = Theme.size(28)
-        const scale = halved ? 84 * Theme.unit + 2.36 * Theme.size(26) : 98 * Theme.unit + 1.37 * size
         let tall = 0
         for (const item of form.items) {
             const lines = Math.ceil(letters.advanceWidth(item.text) * rowText / 100 / (textShare * wide * 0.88))
             const end = Math.max(letters.advanceWidth(item.left), letters.advanceWidth(item.right)) * size / 100
             if (end > (0.96 - textShare) * wide / 2 - Theme.gap)
                 return Infinity
-            tall += form.hidden.includes(item.id) ? 0 : Math.max(scale, lines * 1.37 * rowText) + (halved ? 30 : 36) * Theme.unit + spread
+            tall += form.hidden.includes(item.id) ? 0 : Math.max(scaleHeight, lines * 1.37 * rowText) + 2 * rowMargin + spread
         }
         return tall
     }
@@ -123,8 +142,13 @@ PageFrame {
     readonly property bool mixed: upright && !alone && Theme.textSize <= 1.15 && form.items.length < 5 && form.items.some(item => scales(item))
         && form.items.some(item => item.kind === "slider") && form.items.every(item => scales(item) || item.kind === "slider")
     // How many lines the longest statement of an upright page of ratings takes; 1 where they are not alike.
-    readonly property int mostLines: !upright || alone || Theme.textSize > 1.15 || !form.items.every(item => scales(item)) ? 1
-        : Math.max(1, ...form.items.map(item => Math.ceil(letters.advanceWidth(item.text) * Theme.size(38) / 100 / (column - 2.4 * Theme.gap))))
+    readonly property int mostLines: {
+        let most = 1
+        if (upright && !alone && Theme.textSize <= 1.15 && (mixed || form.items.every(item => scales(item))))
+            for (let i = 0; i < boxes.count; i++)
+                most = Math.max(most, (boxes.itemAt(i) as FormItem)?.lines ?? 1)
+        return most
+    }
     // The item that a field belongs to.
     function card(field: Item): FormItem {
         for (let i = 0; i < boxes.count; i++) {
@@ -332,10 +356,14 @@ PageFrame {
                     beside: view.own || view.rowText > 0 && view.scales(modelData)
                     own: view.own
                     ends: view.ends
+                    otherEnds: view.otherEnds
+                    lined: view.lined
+                    scaleHeight: view.scaleHeight
+                    rowMargin: view.rowMargin
                     rowText: view.rowText
                     textShare: view.textShare
                     headed: !view.repeats(index)
-                    leastLines: view.mixed ? 2 : view.mostLines
+                    leastLines: view.mostLines
                     inline: view.inline(modelData)
                     // The keys of a number come into its card and move nothing.
                     least: view.calm && view.paired === 0 && modelData.kind === "integer" && Theme.screenKeys !== "never" ? view.stripHeight + 24 * Theme.unit : 0

@@ -21,10 +21,17 @@ Item {
     property bool headed: true
     // Whether every row has the words for its ends, below its own scale.
     property bool own: false
-    // How wide these words are where they stand in two lines under the middles of the ends; 0 where they do not.
+    // How wide these words are where they stand under the middles of the ends; 0 where they do not.
     property real ends: 0
-    // How many lines its text has at least, so that the cards of a page are as high.
+    property real otherEnds: ends
+    // Whether each of them has one line there.
+    property bool lined: false
+    // How high a scale is with them, and how much of its row is above and below it.
+    property real scaleHeight: 0
+    property real rowMargin: 0
+    // How many lines the longest text of the page has: all cards keep room for as many.
     property int leastLines: 1
+    readonly property alias lines: question.lineCount
     // Whether a number stands beside its text, at the end of the card.
     property bool inline: false
     // How high it is at least, as for keys that come into it.
@@ -47,13 +54,13 @@ Item {
     // How much of what can be added to the distances of this page is added, from 0 to 1.
     property real loosened: 0
     // How high it is without that, and how much can be added.
-    readonly property real plain: Math.max(least, head + (inline ? Math.max(told.height, way.height) : told.height + (way.active ? usualSpacing + way.height : 0)) + lacking + 2 * usualMargin)
+    readonly property real plain: Math.max(least, head + (inline ? Math.max(told.height, way.height) : told.height + lacking + (way.active ? usualSpacing + way.height : 0)) + 2 * usualMargin)
     readonly property real addable: alone || beside ? 0 : 32 * Theme.unit
     // Where its text and a number beside each other end, from the left.
     readonly property real taken: Math.max(question.contentWidth, (way.item as NumberField)?.width ?? 0) + 1.2 * Theme.gap
-    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : airy ? 22 : calm ? 14 : 8) * Theme.unit
+    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : airy ? lined ? 26 : 22 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
-    readonly property real usualMargin: alone ? 0 : (beside ? dense ? 9 : own ? ends > 0 ? 15 : 18 : 20 : dense ? 8 : tight ? 10 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
+    readonly property real usualMargin: alone ? 0 : own ? rowMargin : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
     // Letters have some air above them already; what stands below them does not.
     readonly property real raised: alone || beside || inline || dense ? 0 : 4 * Theme.unit
     readonly property var ways: ({
@@ -98,9 +105,9 @@ Item {
     // The words for the ends stand above the first card of a table.
     readonly property real head: beside && headed && !own ? ((way.item as PointScale)?.words ?? 0) + 8 * Theme.unit : 0
 
-    // The cards of a page are as high, and in each the text stands as far above what answers it.
+    // The cards of a page are as high, with their scales at one place, and a shorter text in the middle of its room.
     readonly property real lacking: beside ? 0 : Math.max(0, leastLines - question.lineCount) * question.implicitHeight / Math.max(1, question.lineCount)
-    height: Math.max(least, head + content.height + lacking + 2 * margin)
+    height: Math.max(least, head + content.height + 2 * margin)
 
     Rectangle {
         anchors { fill: parent; topMargin: box.head }
@@ -118,14 +125,16 @@ Item {
             id: asked
             width: parent.width
             // Where the middle of a row is: that of the points, and not of words above them.
-            readonly property real scaled: (way.item as PointScale)?.size ?? 0
+            readonly property real scaled: (way.item as PointScale)?.size ?? (way.item as SliderScale)?.rail ?? 0
+            // The text is level with the points. With the light words below them, these stand a little above the middle.
+            readonly property real axis: box.own ? Math.max((height - way.height + scaled) / 2 + 0.3 * box.rowMargin, told.height / 2 - 8 * Theme.unit) : middle
             // Rows of one line and of two are as high; with words for its ends it is as high as a scale and a line of words.
-            readonly property real middle: Math.max(box.own ? box.ends > 0 ? 84 * Theme.unit + 2.36 * Theme.size(26) : 98 * Theme.unit + 1.37 * Theme.size(28) : scaled, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
-            height: box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : told.height + (way.active ? content.spacing + way.height : 0)
+            readonly property real middle: Math.max(box.own ? box.scaleHeight : scaled, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
+            height: box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : told.height + box.lacking + (way.active ? content.spacing + way.height : 0)
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.beside ? asked.middle - height / 2 : box.inline ? (asked.height - height) / 2 : 0
+                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.lacking / 2
                 width: box.beside ? box.textShare * asked.width : box.inline ? asked.width - 470 * Theme.unit : asked.width
                 spacing: content.spacing
                 Balanced {
@@ -167,7 +176,7 @@ Item {
                 id: way
                 readonly property real room: box.beside ? (0.96 - box.textShare) * asked.width : asked.width
                 x: Theme.across(box.beside ? asked.width - room : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.own || box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - height + asked.scaled / 2 : told.height + content.spacing
+                y: box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - height + asked.scaled / 2 : told.height + box.lacking + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
@@ -240,6 +249,8 @@ Item {
             headed: box.headed
             own: box.own
             ends: box.ends
+            otherEnds: box.otherEnds
+            lined: box.lined
             lift: box.own ? 0 : box.margin + asked.middle - size / 2 + 8 * Theme.unit
             item: box.item.id
             label: box.item.text
@@ -261,6 +272,8 @@ Item {
             width: way.room
             own: box.own
             ends: box.ends
+            otherEnds: box.otherEnds
+            lined: box.lined
             item: box.item.id
             label: box.item.text
             lowest: box.item.lowest

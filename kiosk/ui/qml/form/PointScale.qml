@@ -23,14 +23,17 @@ Item {
     property bool headed: true
     // Whether they stand below the points of every row instead.
     property bool own: false
-    // How wide the words for its ends are where they stand in two lines under the middles of its ends; 0 where they do not.
+    // How wide the words for its ends are where they stand under the middles of its ends; 0 where they do not.
     property real ends: 0
+    property real otherEnds: ends
+    // Whether each of them has one line there.
+    property bool lined: false
     // How far above the points they stand then.
     property real lift: 0
     signal chosen(int point)
 
     readonly property bool pictured: pictures.length > 0
-    readonly property real wish: (alone ? 132 : beside ? dense ? 72 : own && ends > 0 ? 80 : 92 : dense ? 58 : tight ? 66 : large ? ends > 0 ? 100 : 112 : 76) * Theme.unit * (pictured ? 1.25 : 1)
+    readonly property real wish: (alone ? 132 : beside ? dense ? 72 : own && lined ? 84 : own && ends > 0 ? 80 : 92 : dense ? 58 : tight ? 66 : large ? ends > 0 && !lined ? 100 : 112 : 76) * Theme.unit * (pictured ? 1.25 : 1)
     readonly property real size: Math.min(wish, width / (points * 1.45))
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real most: 250 * Theme.unit * Theme.textSize
@@ -42,7 +45,8 @@ Item {
     readonly property bool below: alone || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least)
     readonly property bool centred: ends > 0 && below && !pictured && !alone && (!beside || own)
     readonly property real inset: centred ? Math.max(0, (ends - size) / 2) : 0
-    readonly property real gap: beside || centred ? (width - 2 * inset - points * size) / Math.max(1, points - 1) : pictured ? 0.4 * size : alone ? 0.25 * size
+    readonly property real otherInset: centred ? Math.max(0, (otherEnds - size) / 2) : 0
+    readonly property real gap: beside || centred ? (width - inset - otherInset - points * size) / Math.max(1, points - 1) : pictured ? 0.4 * size : alone ? 0.25 * size
         : Math.min(1.6 * size, Math.max(0.25 * size, (below ? width - points * size : spare) / Math.max(1, points - 1)))
     readonly property real span: points * size + (points - 1) * gap
 
@@ -76,7 +80,7 @@ Item {
         readonly property real end: scale.centred ? scale.width : Math.max(scale.span, 2 * scale.half + Theme.gap)
         x: Theme.across(scale.below ? end - width : scale.leftRoom + scale.span + 2 * Theme.gap, width, scale.width)
         y: scale.beside && !scale.own ? scale.words - height : scale.below ? lowest.y : (scale.height - height) / 2
-        width: scale.centred ? scale.ends : scale.below ? scale.half : scale.rightRoom
+        width: scale.centred ? scale.otherEnds : scale.below ? scale.half : scale.rightRoom
         text: scale.rightEnd
         horizontalAlignment: scale.centred ? Text.AlignHCenter : scale.below ? Text.AlignRight : Text.AlignLeft
         lineHeight: lowest.lineHeight

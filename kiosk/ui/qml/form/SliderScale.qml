@@ -23,13 +23,16 @@ Item {
     property bool large: false
     // Whether it is a row of a table, as high as the points of the others.
     property bool own: false
-    // How wide the words for its ends are where they stand in two lines under the ends of the line; 0 where they do not.
+    // How wide the words for its ends are where they stand under the ends of the line; 0 where they do not.
     property real ends: 0
+    property real otherEnds: ends
+    // Whether each of them has one line there.
+    property bool lined: false
     signal chosen(int value)
 
     readonly property int range: highest - lowest
     readonly property int leap: Math.max(1, Math.round(range / 10))
-    readonly property real rail: (own ? ends > 0 ? 80 : 92 : dense ? 62 : large ? ends > 0 ? 108 : 126 : level ? 90 : 100) * Theme.unit
+    readonly property real rail: (own ? lined ? 84 : ends > 0 ? 80 : 92 : dense ? 62 : large ? lined ? 112 : ends > 0 ? 108 : 126 : level ? 90 : 100) * Theme.unit
     readonly property real tick: (dense ? 18 : 24) * Theme.unit
     // The handle, with room around it in the line.
     readonly property real thickness: 0.78 * rail
@@ -39,6 +42,7 @@ Item {
     readonly property bool centred: ends > 0 && below && !alone
     // Its line ends where the middles of the points of the others are.
     readonly property real inset: centred ? Math.max(0, (ends - rail) / 2) : 0
+    readonly property real otherInset: centred ? Math.max(0, (otherEnds - rail) / 2) : 0
     // Among other kinds of items the ends stand beside the line, and what there is to do in it.
     readonly property bool level: !own && !alone && !large
     readonly property real most: 250 * Theme.unit * Theme.textSize
@@ -64,7 +68,7 @@ Item {
         id: upper
         y: scale.below ? lower.y : (scale.height - height) / 2
         x: Theme.across(scale.centred ? scale.width - width : scale.leftRoom + slider.width + scale.rightRoom - width, width, scale.width)
-        width: scale.below ? lower.width : scale.rightRoom - Theme.gap
+        width: scale.centred ? scale.otherEnds : scale.below ? lower.width : scale.rightRoom - Theme.gap
         text: scale.rightEnd
         horizontalAlignment: scale.centred ? Text.AlignHCenter : scale.below ? Text.AlignRight : Text.AlignLeft
         lineHeight: lower.lineHeight
@@ -86,7 +90,7 @@ Item {
         x: Theme.across(scale.leftRoom + scale.inset, width, scale.width)
         y: scale.below ? 0 : (scale.height - height) / 2
         // On a page of several, its ends stand at the same edges as those of the points.
-        width: scale.alone ? Math.min(900 * Theme.unit, scale.width) : scale.width - scale.leftRoom - scale.rightRoom - 2 * scale.inset
+        width: scale.alone ? Math.min(900 * Theme.unit, scale.width) : scale.width - scale.leftRoom - scale.rightRoom - scale.inset - scale.otherInset
         height: scale.rail
         padding: 0
         leftPadding: (scale.rail - scale.thickness) / 2
@@ -121,32 +125,32 @@ Item {
             width: slider.width
             height: scale.rail
             radius: height / 2
-            color: Theme.white
-            border { color: Theme.sea; width: 3 * Theme.unit }
+            // No frame: it would look like a field to type in.
+            color: "transparent"
             // Where the middle of the handle can be.
             readonly property real inset: slider.leftPadding + scale.thickness / 2
             Rectangle {
                 x: groove.inset
                 y: (scale.rail - height) / 2
                 width: slider.width - 2 * groove.inset
-                height: (scale.dense ? 4 : 6) * Theme.unit
+                height: (scale.dense ? 6 : 10) * Theme.unit
                 radius: height / 2
-                color: Theme.lightSea
+                color: Theme.sea
             }
-            // A tenth of the way each, or a step where there are fewer, and one at each end.
+            // A tenth of the way each, or a step where there are fewer; longer at the ends and in the middle.
             Repeater {
                 id: ticks
                 model: Math.min(10, scale.range) + 1
                 Rectangle {
                     required property int index
-                    readonly property bool end: index === 0 || index === ticks.model - 1
+                    readonly property bool end: index === 0 || index === ticks.model - 1 || 2 * index === ticks.model - 1
                     readonly property real middle: groove.inset + index / (ticks.model - 1) * (slider.width - 2 * groove.inset)
                     x: middle - width / 2
                     y: (scale.rail - height) / 2
-                    width: (end ? 4 : 3) * Theme.unit
-                    height: scale.tick + (end ? 8 * Theme.unit : 0)
+                    width: (end ? 8 : 4) * Theme.unit
+                    height: (end ? 1.9 : 1.1) * scale.tick
                     radius: width / 2
-                    color: Theme.lightSea
+                    color: Theme.sea
                 }
             }
             FocusRing {
@@ -176,14 +180,14 @@ Item {
     PlainText {
         id: hint
         objectName: `touch-${scale.item}`
-        readonly property real between: scale.centred ? scale.width - 2 * scale.ends : slider.width - 2 * Math.max(lower.contentWidth, upper.contentWidth)
+        readonly property real between: scale.centred ? scale.width - 2 * Math.max(scale.ends, scale.otherEnds) : slider.width - 2 * Math.max(lower.contentWidth, upper.contentWidth)
         readonly property bool beneath: scale.below && implicitWidth + 2 * Theme.gap <= between
         visible: !scale.answered && !slider.pressed
         x: slider.x + (slider.width - width) / 2
         y: beneath ? lower.y : slider.y + (slider.height - height) / 2
         width: implicitWidth
         text: scale.touch
-        font.pixelSize: scale.level ? Theme.small : Theme.size(scale.own ? 28 : 30)
+        font.pixelSize: scale.level ? Theme.small : lower.font.pixelSize
         color: Theme.faintInk
     }
 }
