@@ -6,10 +6,11 @@ It stands below the packages: voices, robots, texts and tables all have codes of
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from typing import NamedTuple
 
-from babel import Locale, UnknownLocaleError
-from babel.core import get_global
+# Babel is imported by what asks it for a fact: most of what a start does only spells codes.
+# ruff: noqa: PLC0415
 
 _CODE = re.compile(
     r"(?P<language>[a-z]{2,3})(-(?P<extended>[a-z]{3}))?(-(?P<script>[a-z]{4}))?(-(?P<region>[a-z]{2}|\d{3}))?"
@@ -65,7 +66,7 @@ def with_region(code: str) -> str:
     parts = _meant(code)
     if parts is None or parts.region:
         return code
-    likely = get_global("likely_subtags").get(parts.language, "").split("_")
+    likely = _global("likely_subtags").get(parts.language, "").split("_")
     return f"{parts.language}-{likely[-1]}" if len(likely) > 1 else code
 
 
@@ -81,11 +82,19 @@ def babel_codes(code: str) -> list[str]:
 
 
 def _is_known(code: str) -> bool:
+    from babel import Locale, UnknownLocaleError
+
     try:
         Locale.parse(code, sep="-")
     except (UnknownLocaleError, ValueError):
         return False
     return True
+
+
+def _global(table: str) -> Mapping[str, str]:
+    from babel.core import get_global
+
+    return get_global(table)  # type: ignore[arg-type]  # its name is one of several
 
 
 def _parts(code: str) -> _Parts | None:
@@ -104,7 +113,7 @@ def _meant(code: str) -> _Parts | None:
     parts = _parts(code)
     if parts is None:
         return None
-    alias = get_global("language_aliases").get(parts.language, parts.language)
+    alias = _global("language_aliases").get(parts.language, parts.language)
     language, _, script = _MORE_ALIASES.get(alias, alias).partition("_")
     return parts._replace(language=language, script=parts.script or script)
 
@@ -114,5 +123,5 @@ def _region_distance(wanted: _Parts, offered: _Parts) -> int | None:
         return _EXACT
     if not wanted.region or not offered.region:
         return _NO_REGION
-    parent = get_global("parent_exceptions").get(f"{wanted.language}_{wanted.region}")
+    parent = _global("parent_exceptions").get(f"{wanted.language}_{wanted.region}")
     return _PARENT if parent == f"{offered.language}_{offered.region}" else None

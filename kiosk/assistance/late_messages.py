@@ -1,29 +1,30 @@
-"""Messages that are parsed one by one, when each is first said.
+"""Messages by their text alone: a plain one is said as it stands, and any other is left to Fluent.
 
 Fluent parses in Python, and all of a language takes a tenth of a second. The files that come with Recollect are
-well-formed, which the tests hold, so they need not be parsed as a whole before the kiosk opens.
+well-formed, which the tests hold, so they need not be parsed before the kiosk opens. The start screen says only plain
+messages, so Fluent itself is loaded later, too.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from functools import lru_cache
-from typing import TYPE_CHECKING, Any, ClassVar, cast
+from collections.abc import Iterable, Mapping
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING
 
-from babel.plural import PluralRule, to_python
-from fluent.runtime import FluentBundle, FluentResource
-from fluent.runtime.resolver import Message
-from fluent.syntax.ast import Identifier, Pattern, Resource, TextElement
-from fluent.syntax.ast import Message as Entry
+from kiosk.language_codes import babel_codes
 
 if TYPE_CHECKING:
-    from babel import Locale
+    from fluent.runtime import FluentBundle
+    from fluent.syntax.ast import Resource
 
 _BEGINS = re.compile(r"^(-?[a-zA-Z][a-zA-Z0-9_-]*) *=", re.MULTILINE)
 _ATTRIBUTE = re.compile(r"^ +\.([a-zA-Z][a-zA-Z0-9_-]*) *=", re.MULTILINE)
-_PLAIN = re.compile(r"([a-zA-Z][a-zA-Z0-9_-]*) *= *([^ {}\n\r][^{}\n\r]*)(?:\n(?:#[^\n\r]*)?)*")
-"""A message of one line without a placeable, and the comments behind it: three quarters of all."""
+_VARIABLE = r"\{ *\$([a-zA-Z][a-zA-Z0-9_-]*) *\}"
+_PLAIN = re.compile(rf"([a-zA-Z][a-zA-Z0-9_-]*) *= *(?=[^ \n\r])((?:[^{{}}\n\r]|{_VARIABLE})+)(?:\n(?:#[^\n\r]*)?)*")
+"""A message of one line with nothing but text and variables, and the comments behind it: four fifths of all."""
+_MOST_CHARACTERS = 2500
+"""Fluent refuses a longer variable."""
 
 
 @lru_cache(maxsize=64)
@@ -42,65 +43,52 @@ def attributes_in(text: str) -> frozenset[str]:
     return frozenset(_ATTRIBUTE.findall(text))
 
 
-# A bundle compiles it into objects of its own and never changes it.
 @lru_cache(maxsize=1024)
-def parsed(text: str) -> Resource:
-    """Return what Fluent makes of a message's text; a plain one takes a tenth of the time."""
+def plain_parts(text: str) -> tuple[str, tuple[str, ...]] | None:
+    """Return a plain message's name, and its texts and names of variables in turn; None for any other message."""
     plain = _PLAIN.fullmatch(text)
-    if plain is None:
-        return FluentResource(text)
-    return Resource([Entry(Identifier(plain[1]), Pattern([TextElement(plain[2].rstrip(" "))]))])
+    return None if plain is None else (plain[1], tuple(re.split(_VARIABLE, plain[2].rstrip(" "))))
 
 
-class _NoLocale:
-    plural_form: ClassVar[PluralRule] = PluralRule({})
+class LateMessages:
+    """The messages of a language; ``late`` are those that are not parsed yet, by their names."""
 
-
-class LateBundle(FluentBundle):
-    """A bundle that also knows messages by their text alone, and reads plural rules when it needs them."""
-
-    def __init__(self, locales: list[str], late: Mapping[str, str]) -> None:
-        """Know the messages and terms in ``late``, by their names; what is added later replaces them.
-
-        The marks that isolate a variable's writing direction are for mixed scripts; a voice would stumble on them.
-        """
-        super().__init__(locales, use_isolating=False)
-        # Fluent has set these to what stands in for them; the true ones are read from files of Babel.
-        del self._babel_locale, self._plural_form
+    def __init__(self, language: str, late: Mapping[str, str]) -> None:
+        """Know the messages and terms in ``late``; what is added later replaces them."""
+        self._language = language
         self._late = dict(late)
 
-    def _get_babel_locale(self) -> Locale:
-        return cast("Locale", _NoLocale)
+    @cached_property
+    def bundle(self) -> FluentBundle:
+        """All messages, as Fluent forms them."""
+        from kiosk.assistance.fluent_messages import LateBundle  # noqa: PLC0415 - the start screen does without
 
-    def __getattr__(self, name: str) -> Any:
-        """Read what Fluent needs of a language, such as its plural rules, when it first asks for it."""
-        match name:
-            case "_babel_locale":
-                found: Any = super()._get_babel_locale()
-            case "_plural_form":
-                found = to_python(self._babel_locale.plural_form)
-            case _:
-                raise AttributeError(name)
-        setattr(self, name, found)
-        return found
+        return LateBundle(babel_codes(self._language), self._late)
 
-    def add_resource(self, resource: Resource, allow_overrides: bool = False) -> None:  # noqa: FBT001, FBT002 - Fluent's
-        """Add what is parsed."""
-        for entry in resource.body:
-            if hasattr(entry, "id"):
-                self._late.pop(entry.id.name if isinstance(entry, Entry) else f"-{entry.id.name}", None)
-        super().add_resource(resource, allow_overrides)
+    def add(self, resources: Iterable[tuple[Resource, bool]]) -> None:
+        """Add what is parsed; True with it lets it replace what was added before."""
+        for resource, overrides in resources:
+            self.bundle.add_resource(resource, allow_overrides=overrides)
 
-    def has_message(self, message_id: str) -> bool:
+    def __contains__(self, message: str) -> bool:
         """Whether there is such a message."""
-        return message_id in self._late or super().has_message(message_id)
+        return message in self._late or ("bundle" in vars(self) and self.bundle.has_message(message))
 
-    def _lookup(self, entry_id: str, term: bool = False) -> Message:  # noqa: FBT001, FBT002 - Fluent's
-        # The resolver finds messages and terms that others refer to by this method alone.
-        name = f"-{entry_id}" if term else entry_id
-        if name in self._late:
-            self.add_resource(parsed(self._late[name]))
-            if self._late.pop(name, None) is not None:
-                # The file was changed and is broken here: a message without a text is said in the next language.
-                super().add_resource(Resource([Entry(Identifier(entry_id))]))
-        return super()._lookup(entry_id, term)
+    def wordings_of(self, message: str) -> int:
+        """Count the attributes of a message that is there."""
+        if message in self._late:
+            return len(attributes_in(self._late[message]))
+        return len(self.bundle.get_message(message).attributes)
+
+    def plain(self, message: str, variables: Mapping[str, str | int]) -> str | None:
+        """Fill in a plain message whose variables are all short texts; None where that is Fluent's to do."""
+        found = plain_parts(self._late[message]) if message in self._late else None
+        if found is None:
+            return None
+        parts = list(found[1])
+        for place in range(1, len(parts), 2):
+            value = variables.get(parts[place])
+            if not isinstance(value, str) or len(value) > _MOST_CHARACTERS:
+                return None
+            parts[place] = value
+        return "".join(parts)

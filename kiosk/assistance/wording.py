@@ -9,19 +9,23 @@ from functools import cache, lru_cache
 from itertools import product
 from pathlib import Path
 from random import Random
-
-from fluent.runtime import FluentBundle, FluentResource
-from fluent.runtime.resolver import Pattern
-from fluent.syntax.ast import EntryType, Junk, Message, SyntaxNode, Term
+from typing import TYPE_CHECKING
 
 from kiosk import UserInputError
 from kiosk.assistance.keyboards import KeyRows, key_rows
-from kiosk.assistance.late_messages import LateBundle, attributes_in, split
+from kiosk.assistance.late_messages import LateMessages, attributes_in, split
 from kiosk.assistance.mentaliser import Hint
 from kiosk.assistance.policy import ENCOURAGEMENT, PRAISE, ActionSpec
 from kiosk.config import ASSETS, read_text
-from kiosk.language_codes import babel_codes, standard
+from kiosk.language_codes import standard
 from kiosk.lazy_dataclass import dataclass
+
+if TYPE_CHECKING:
+    from fluent.runtime.resolver import Pattern
+    from fluent.syntax.ast import EntryType, Message, SyntaxNode, Term
+
+# Fluent is imported where something is parsed, as the start screen says nothing that has to be.
+# ruff: noqa: PLC0415
 
 _log = logging.getLogger(__name__)
 
@@ -40,23 +44,21 @@ def card_message(card: str) -> str:
     return f"{CARD}-{re.sub('[^A-Za-z0-9_-]', lambda found: f'_{ord(found[0]):x}_', card)}"
 
 
-# Parsing a language takes a tenth of a second, and every decision that is explained and every study that is read needs
-# one. A parsed file is never changed: a bundle compiles it into objects of its own.
-_parsed = lru_cache(maxsize=64)(FluentResource)
-
-
 @lru_cache(maxsize=16)
-def _compiled(language: str, sources: tuple[tuple[str, str], ...], shipped: frozenset[str]) -> FluentBundle:
+def _compiled(language: str, sources: tuple[tuple[str, str], ...], shipped: frozenset[str]) -> LateMessages:
     """Return the messages of these sources, by their names.
 
-    A bundle compiles a message when it is first said, and keeps it. Those of shipped sources are parsed only then.
+    Those of shipped sources are parsed when they are first said, if they have to be.
     """
-    late = dict(entry for name, source in sources if name in shipped for entry in split(source))
-    bundle = LateBundle(babel_codes(language), late)
-    for name, source in sources:
-        if name not in shipped:
-            bundle.add_resource(_parsed(source), allow_overrides=name.startswith(REPLACING))
-    return bundle
+    messages = LateMessages(
+        language, dict(entry for name, source in sources if name in shipped for entry in split(source))
+    )
+    own = [(name, source) for name, source in sources if name not in shipped]
+    if own:
+        from kiosk.assistance.fluent_messages import parsed_file
+
+        messages.add((parsed_file(source), name.startswith(REPLACING)) for name, source in own)
+    return messages
 
 
 FOR_EXPERIMENTERS = ("console-", "dossier-", "film-", "preview-")
@@ -97,7 +99,7 @@ class Catalogue:
             file = elsewhere.get(name, folder / name)
             numbers = tuple(sorted((lines or {}).items()))
             self._take(_shipped(source, file) if name in shipped else _written(source, file, numbers), name)
-        self._bundle = _compiled(self.language, tuple(sorted(self.sources.items())), shipped)
+        self._said = _compiled(self.language, tuple(sorted(self.sources.items())), shipped)
 
     def _take(self, entries: Iterable[Written], source: str) -> None:
         """Refuse what stands twice, which Fluent would pass over in silence."""
@@ -161,7 +163,7 @@ class Catalogue:
     def own_forms(self, name: str) -> frozenset[str]:
         """Return the forms that a card has besides its name."""
         message = card_message(name)
-        return frozenset(self._bundle.get_message(message).attributes) if message in self else frozenset()
+        return frozenset(self._said.bundle.get_message(message).attributes) if message in self else frozenset()
 
     def forms_of(self, name: str) -> dict[str, str]:
         """Return all forms of a card.
@@ -172,7 +174,7 @@ class Catalogue:
         called = self._text(message, {})
         if called is None:
             return dict.fromkeys(self.forms, name)
-        attributes = self._bundle.get_message(message).attributes
+        attributes = self._said.bundle.get_message(message).attributes
         told = {f"{CARD}-{form}": self._format(pattern, {}) for form, pattern in attributes.items()}
         return dict.fromkeys(self.forms, called) | {form: text for form, text in told.items() if text is not None}
 
@@ -204,11 +206,11 @@ class Catalogue:
 
         It is 0 for a message that is a single text, or that is not there.
         """
-        return len(self._bundle.get_message(message).attributes) if message in self else 0
+        return self._said.wordings_of(message) if message in self else 0
 
     def __contains__(self, message: str) -> bool:
         """Whether there is such a message."""
-        return self._bundle.has_message(message)
+        return message in self._said
 
     def _in_turn(self) -> Iterator[Catalogue]:
         yield self
@@ -227,12 +229,15 @@ class Catalogue:
 
     def _text(self, message: str, variables: Mapping[str, str | int]) -> str | None:
         """Return the message, or None if it cannot be said."""
-        pattern = self._bundle.get_message(message).value if message in self else None
+        plain = self._said.plain(message, variables)
+        if plain is not None:
+            return plain
+        pattern = self._said.bundle.get_message(message).value if message in self else None
         return None if pattern is None else self._format(pattern, variables)
 
     def _wordings(self, message: str, variables: Mapping[str, str | int]) -> tuple[str, ...]:
         """Return the wordings of a message that can be said."""
-        attributes = self._bundle.get_message(message).attributes if message in self else {}
+        attributes = self._said.bundle.get_message(message).attributes if message in self else {}
         formed = (self._format(attributes[name], variables) for name in sorted(attributes))
         said = tuple(text for text in formed if text is not None)
         if 0 < len(said) < len(attributes):
@@ -241,19 +246,19 @@ class Catalogue:
 
     def _format(self, pattern: Pattern, variables: Mapping[str, str | int]) -> str | None:
         try:
-            text, errors = self._bundle.format_pattern(pattern, dict(variables))
+            text, errors = self._said.bundle.format_pattern(pattern, dict(variables))
         except Exception:  # noqa: BLE001 - whatever a library raises, the next language speaks
             return None
         return None if errors else str(text)
 
     def fault(self, message: str, variables: Mapping[str, str | int]) -> str | None:
         """Say why a message, or a wording of it, cannot be formed with these variables; None if it can."""
-        formed = self._bundle.get_message(message)
+        formed = self._said.bundle.get_message(message)
         for pattern in (formed.value, *formed.attributes.values()):
             if pattern is None:
                 continue
             try:
-                _, errors = self._bundle.format_pattern(pattern, dict(variables))
+                _, errors = self._said.bundle.format_pattern(pattern, dict(variables))
             except Exception as error:  # noqa: BLE001 - any error is reported
                 errors = [error]
             if errors:
@@ -301,13 +306,17 @@ class Written:
 @lru_cache(maxsize=64)
 def _written(source: str, file: Path, lines: tuple[tuple[str, int], ...]) -> tuple[Written, ...]:
     """Return the messages and terms of a file; raises UserInputError for what is neither."""
+    from kiosk.assistance.fluent_messages import parsed_file
+
     numbers = dict(lines)
-    entries = (_entry(entry, file, source, numbers) for entry in _parsed(source).body)
+    entries = (_entry(entry, file, source, numbers) for entry in parsed_file(source).body)
     return tuple(entry for entry in entries if entry is not None)
 
 
 def _entry(entry: EntryType, file: Path, source: str, lines: Mapping[str, int]) -> Written | None:
     """Return a message or a term; None for a comment. Raises UserInputError for what is neither."""
+    from fluent.syntax.ast import Junk, Message, Term
+
     if isinstance(entry, Junk):
         line = source.count("\n", 0, entry.span.start if entry.span else 0) + 1
         begin = str(entry.content).strip().splitlines()[0]
@@ -319,12 +328,18 @@ def _entry(entry: EntryType, file: Path, source: str, lines: Mapping[str, int]) 
 
 
 def _name(entry: Message | Term) -> str:
+    from fluent.syntax.ast import Message
+
     return entry.id.name if isinstance(entry, Message) else f"-{entry.id.name}"
 
 
 @lru_cache(maxsize=64)
 def _entries(source: str) -> dict[str, Message | Term]:
-    return {_name(entry): entry for entry in _parsed(source).body if isinstance(entry, Message | Term)}
+    from fluent.syntax.ast import Message, Term
+
+    from kiosk.assistance.fluent_messages import parsed_file
+
+    return {_name(entry): entry for entry in parsed_file(source).body if isinstance(entry, Message | Term)}
 
 
 @lru_cache(maxsize=64)

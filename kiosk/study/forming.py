@@ -18,7 +18,7 @@ from fluent.syntax.ast import (
 )
 from fluent.syntax.visitor import Visitor
 
-from kiosk.assistance.late_messages import parsed
+from kiosk.assistance.fluent_messages import parsed
 from kiosk.assistance.wording import CARD, Catalogue, Written, given_with
 
 _TEXTS = frozenset({CARD, "ago", "code", "contact", "free", "participant", "stage", "what", "when", "why"})

@@ -9,7 +9,7 @@ from difflib import get_close_matches
 from functools import cached_property, partial
 from itertools import combinations
 from pathlib import Path
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from kiosk import UserInputError
 from kiosk.assistance.policy import ACTIONS, NONE, ActionSpec, QTable, find_action
@@ -39,9 +39,10 @@ from kiosk.files import open_to_read
 from kiosk.game import CARDS_IN_A_PAIR
 from kiosk.language_codes import standard
 from kiosk.study.decks import CardNames, deck_faults, picture_faults, read_names
-from kiosk.study.forming import as_messages, unformed
 from kiosk.study.package import study_hash
-from kiosk.study.wording_drafts import SignedWording, hint_messages, messages_in, missing_languages, read_signed
+
+if TYPE_CHECKING:
+    from kiosk.study.wording_drafts import SignedWording
 
 _WORDS = {
     "sentences": "language",
@@ -331,6 +332,8 @@ class _Look:
             self.faults.append(f"the sentences in {place.path} lack {', '.join(lacking)}")
         self.faults += _unsaid(actions, catalogue)
         if words or not place.is_shipped:
+            from kiosk.study.forming import unformed  # noqa: PLC0415 - what comes with Recollect was formed by the tests
+
             self.faults += unformed(
                 catalogue, model, self._cards(), max(self._settings.game.rows, self._settings.game.columns)
             )
@@ -360,6 +363,8 @@ class _Look:
         """Add the messages that the study file itself replaces; returns the lines in which they stand there."""
         own, lines = self._settings.own_texts(code), dict[str, int]()
         if own:
+            from kiosk.study.forming import as_messages  # noqa: PLC0415 - it loads Fluent
+
             sources[OWN_TEXTS] = as_messages(own)
         for message in own:
             words[OWN_TEXTS], line = self._settings.texts_place(code, message)
@@ -377,6 +382,8 @@ class _Look:
         name = self._settings.assistance.wording
         if not name:
             return None
+        from kiosk.study.wording_drafts import missing_languages, read_signed  # noqa: PLC0415 - for few studies
+
         folder = self._settings.beside(name)
         signed = self.at(WORDING, partial(read_signed, folder))
         if signed is not None:
@@ -394,6 +401,8 @@ class _Look:
         """See that the signed wordings are of hints, and that nothing else in the study replaces the same messages."""
         if SIGNED_TEXTS not in words:
             return
+        from kiosk.study.wording_drafts import hint_messages, messages_in  # noqa: PLC0415 - for few studies
+
         signed = messages_in(catalogue.sources[SIGNED_TEXTS])
         for name in sorted(signed - set(hint_messages(catalogue))):
             self._blame(WORDING, f"{words[SIGNED_TEXTS]} has the message {name}, which is not of a hint")

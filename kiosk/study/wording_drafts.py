@@ -17,9 +17,6 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-from fluent.syntax import parse
-from fluent.syntax.ast import Message
-
 from kiosk import UserInputError
 from kiosk.assistance.claims import CLAIM_PHRASES, false_claims, false_places, histories, other_cards
 from kiosk.assistance.mentaliser import HintReason
@@ -156,6 +153,9 @@ def hint_messages(catalogue: Catalogue) -> tuple[str, ...]:
 
 def messages_in(source: str) -> set[str]:
     """Return the names of the messages in a text of sentences."""
+    from fluent.syntax import parse  # noqa: PLC0415 - a study is read without it where it can be
+    from fluent.syntax.ast import Message  # noqa: PLC0415 - as above
+
     return {entry.id.name for entry in parse(source).body if isinstance(entry, Message)}
 
 

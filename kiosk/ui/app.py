@@ -12,7 +12,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 from uuid import uuid4
 
-from PySide6.QtCore import QObject, QTimer
+from PySide6.QtCore import QObject
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtQuick import QQuickWindow
 
@@ -41,10 +41,10 @@ from kiosk.ui.experimenter.operator_strip import OperatorStrip
 from kiosk.ui.input import Activity, ChoiceReset, PointerTrace
 from kiosk.ui.kiosk_window import KioskWindow
 from kiosk.ui.markers import MarkerStream
+from kiosk.ui.preparation import Preparation, steps_of
 from kiosk.ui.renderer import SoundEffect
 from kiosk.ui.screens.attract import IdleLife
 from kiosk.ui.screens.avatar import AvatarBody
-from kiosk.ui.screens.pages import draw_first_code
 from kiosk.ui.screens.registry import ScreenSet
 from kiosk.ui.session_runner import ConditionAssigner, SessionRunner
 from kiosk.ui.voice import EngineVoice, NoVoice, SilentVoice, Voice
@@ -56,8 +56,6 @@ if TYPE_CHECKING:
 _log = logging.getLogger(__name__)
 
 _BEGAN_MS = wall_ms()
-PREPARED_AFTER_MS = 1_500
-"""Before a visitor can have read the start screen, and after the pages are made."""
 
 
 class App:
@@ -229,7 +227,8 @@ class App:
 
     def _prepare(self) -> None:
         self.window.setProperty("prepares", True)  # noqa: FBT003 - Qt's own
-        QTimer.singleShot(PREPARED_AFTER_MS, self.window, draw_first_code)
+        catalogues = (plan.catalogue for plan in self.assigner.study.plans)
+        self._preparation = Preparation(self._window.owner, steps_of(catalogues))
 
     def _reached(self, recorder: Recorder) -> Services:
         """Return what the experimenter can do something to."""

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 from fluent.runtime import FluentResource
 from fluent.syntax.ast import Junk, Message, Term
 
-from kiosk.assistance.late_messages import LateBundle, attributes_in, parsed, split
+from kiosk.assistance.fluent_messages import LateBundle, parsed
+from kiosk.assistance.late_messages import LateMessages, attributes_in, split
 from kiosk.places import ASSETS
 
 SHIPPED = sorted((ASSETS / "sentences").glob("*/*.ftl"))
@@ -33,7 +35,10 @@ def test_a_shipped_file_is_split_into_what_the_parser_finds_in_it(file: Path) ->
 )
 @pytest.mark.parametrize(
     "text",
-    ["x", "x  ", " x y ", "# x", "[x] y", "*x", ".x", "-x = y", '"x"', "", "{ $x }", "x }", "x\ty\t", "\tx", "ü\u00a0"],
+    [
+        *("x", "x  ", " x y ", "# x", "[x] y", "*x", ".x", "-x = y", '"x"', "", "x }", "x\ty\t", "\tx", "ü\u00a0"),
+        *("{ $x }", "{$x}  ", " { $x } y", "x {$x-y}{ $Z_1 } .", "{ x }", "{ -x }", "{ $ x }", "{ $x", "{ $x.y }"),
+    ],
 )
 def test_a_plain_message_is_what_the_parser_makes_of_it(text: str, after: str) -> None:
     source = f"name = {text}{after}"
@@ -80,3 +85,32 @@ def test_a_message_that_is_broken_has_no_text() -> None:
     assert bundle.has_message("greeting")
     assert bundle.get_message("greeting").value is None
     assert not bundle.has_message("farewell")
+
+
+@pytest.mark.parametrize("file", SHIPPED, ids=lambda file: f"{file.parent.name}-{file.stem}")
+def test_a_plain_message_is_said_as_fluent_says_it(file: Path) -> None:
+    written = dict(split(file.read_text("utf-8")))
+    messages, bundle = LateMessages("en", written), LateBundle(["en"], dict(written))
+    for name, text in written.items():
+        given = dict.fromkeys(re.findall(r"\$([\w-]+)", text), "a word")
+        plain = messages.plain(name, given)
+        if plain is not None:
+            pattern = bundle.get_message(name).value
+            assert pattern is not None
+            assert (plain, []) == bundle.format_pattern(pattern, given)
+
+
+@pytest.mark.parametrize("given", [{}, {"x": 3}, {"x": "a" * 2501}, {"y": "a"}])
+def test_a_variable_that_is_no_short_text_is_left_to_fluent(given: dict[str, str | int]) -> None:
+    messages = LateMessages("en", {"name": "name = It is { $x }.\n"})
+    assert messages.plain("name", {"x": "here"}) == "It is here."
+    assert messages.plain("name", given) is None
+
+
+def test_wordings_are_counted_before_and_after_they_are_parsed() -> None:
+    messages = LateMessages("en", dict(split(LATE)))
+    assert messages.wordings_of("greeting") == 1
+    assert messages.bundle.get_message("greeting").value is not None
+    assert messages.wordings_of("greeting") == 1
+    assert "greeting" in messages
+    assert "farewell" not in messages

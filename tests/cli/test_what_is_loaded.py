@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -16,9 +18,33 @@ QUICK = (
     *("kiosk.cli.check_command", "kiosk.ui.startup_splash"),
 )
 
+LATER = {"babel", "fluent", "http.client", "segno"}
+"""What a start leaves for the time after its first frame."""
+
+START = f"""
+import os, sys
+from kiosk.cli import opening
+
+def drawn(*_):
+    print(*(set(sys.modules) & {LATER!r}), flush=True)
+    os._exit(0)
+
+opening.after_first_frame = lambda window, call: after_first_frame(window, drawn)
+from kiosk.ui.event_loop import after_first_frame
+from kiosk.cli.main import main
+main()
+"""
+
 
 @pytest.mark.parametrize("module", QUICK)
 def test_what_must_be_quick_loads_nothing_heavy(module: str) -> None:
     look = f"import sys, {module}; print(*(set(sys.modules) & {HEAVY!r}))"
     loaded = subprocess.run([sys.executable, "-c", look], capture_output=True, text=True, check=True)
+    assert loaded.stdout.split() == []
+
+
+def test_the_start_screen_waits_for_nothing_that_only_a_session_needs(tmp_path: Path) -> None:
+    command = [sys.executable, "-c", START, "run", "--window", "--data", str(tmp_path)]
+    offscreen = os.environ | {"QT_QPA_PLATFORM": "offscreen", "QT_QUICK_BACKEND": "software"}
+    loaded = subprocess.run(command, capture_output=True, text=True, check=True, env=offscreen)
     assert loaded.stdout.split() == []

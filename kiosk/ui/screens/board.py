@@ -312,13 +312,13 @@ class BoardScreen(QAbstractListModel):
 
     @Property(str, notify=counted)
     def progress(self) -> str:
-        """How many pairs are found, in words."""
-        return self._catalogue.text("game-pairs", found=self._pairs_found, all=self._pairs)
+        """How many pairs are found, in words; nothing without a board."""
+        return "" if not self._pairs else self._catalogue.text("game-pairs", found=self._pairs_found, all=self._pairs)
 
     @Property(str, notify=counted)
     def moves(self) -> str:
-        """How many moves were made, in words."""
-        return self._catalogue.text("game-moves", moves=self._moves)
+        """How many moves were made, in words; nothing without a board."""
+        return "" if not self._pairs else self._catalogue.text("game-moves", moves=self._moves)
 
     @Property(bool, notify=changed)
     def practice(self) -> bool:
