@@ -22,6 +22,7 @@ from kiosk.store.listing import participant_name
 from kiosk.store.maintenance import Progress
 from kiosk.store.participants import checked_site
 from kiosk.store.recorder import insert
+from kiosk.store.remnants import clear_remnants
 from kiosk.store.summaries import fill_summaries
 from kiosk.store.tombstones import add_tombstones, sessions_of, withdrawn_hashes
 from kiosk.store.verify import check_foreign
@@ -63,15 +64,18 @@ def merge(
         _check_sites(parts)
         _check_apart(parts, asked)
         try:
-            with atomic_directory(out) as unfinished, closing(open_for_writing(unfinished)) as target:
-                target.execute(f"PRAGMA cache_size = -{_CACHE_KIB}")
-                _attach(parts, target)
-                target.execute("BEGIN IMMEDIATE")
-                with _without_triggers(target):
-                    sessions = _copy(parts, target, tell)
-                target.execute("COMMIT")
-                for part in parts:
-                    add_tombstones(unfinished, withdrawn_hashes(part.connection, part.folder))
+            with atomic_directory(out) as unfinished:
+                with closing(open_for_writing(unfinished)) as target:
+                    target.execute(f"PRAGMA cache_size = -{_CACHE_KIB}")
+                    _attach(parts, target)
+                    target.execute("BEGIN IMMEDIATE")
+                    with _without_triggers(target):
+                        sessions = _copy(parts, target, tell)
+                    target.execute("COMMIT")
+                    for part in parts:
+                        add_tombstones(unfinished, withdrawn_hashes(part.connection, part.folder))
+                # Its pages are still to be written to the disk, so later withdrawals find them clear for little.
+                clear_remnants(unfinished / FILE)
         except (OSError, sqlite3.Error) as error:
             raise StorageError(f"{out} could not be written: {reason(error, out.parent)}") from error
     return sessions

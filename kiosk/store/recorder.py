@@ -24,8 +24,8 @@ from kiosk.experiment.session_config import SessionConfig, Translation
 from kiosk.lazy_dataclass import dataclass
 from kiosk.store.chain import Head, HeadsFile, first_hash, last_hash, next_hash
 from kiosk.store.codes import keys_of, session_with_hash, shown_code
-from kiosk.store.connecting import failure, primary_code, reason
-from kiosk.store.database import BUSY, lock_folder, open_for_writing
+from kiosk.store.connecting import LOGS, failure, primary_code, reason
+from kiosk.store.database import BUSY, FILE, lock_folder, open_for_writing
 from kiosk.store.participants import (
     AllocationLists,
     Participant,
@@ -36,6 +36,7 @@ from kiosk.store.participants import (
     enrol_again,
     returning_visitor,
 )
+from kiosk.store.remnants import clear_end
 from kiosk.store.summaries import go_on
 from kiosk.store.tombstones import FILE as LIST
 from kiosk.store.tombstones import add_tombstones, is_list_there
@@ -394,7 +395,18 @@ class Recorder:
     def _close(self) -> None:
         self._heads.close()
         self._connection.close()
+        self._clear_end()
         self._lock.release()
+
+    def _clear_end(self) -> None:
+        """Clear what SQLite left between the rows of these sessions, so that a later withdrawal takes less time."""
+        if (self.folder / f"{FILE}{LOGS[0]}").exists():
+            # Another program has the database open, or the log could not be put into it.
+            return
+        try:
+            clear_end(self.folder / FILE)
+        except (OSError, ValueError) as error:
+            _log.info("the end of the database was not cleared: %s", error)
 
     def _set_wait(self, wait_ms: int) -> None:
         self._connection.execute(f"PRAGMA busy_timeout = {wait_ms}")

@@ -43,6 +43,10 @@ _MOVES_PAGES = slice(52, 56)
 _ZEROS = bytes(_LARGEST)
 
 
+_MOST_AT_THE_END = 256
+"""How many stretches of pages are cleared at the end of a file at most: 256 MiB, or half a second of a processor."""
+
+
 def clear_remnants(path: Path) -> None:
     """Write zeros over every byte of a database file that holds no row.
 
@@ -52,21 +56,55 @@ def clear_remnants(path: Path) -> None:
     """
     with path.open("r+b", buffering=0) as file:
         header = file.read(_FILE_HEADER)
-        size = int.from_bytes(header[16:18], "big")
-        size = _LARGEST if size == 1 else size
-        if size not in _SIZES or any(header[_MOVES_PAGES]):
+        pages = _pages(file, header)
+        if pages is None:
             return
-        pages = Pages(file, size, size - header[20])
         pages.clear_free(header)
         number = 1
         while there := pages.read(number, _PAGES_AT_ONCE):
-            for place in range(len(there) // size):
-                try:
-                    pages.clear(number + place, there[place * size : (place + 1) * size])
-                except (struct.error, IndexError) as damaged:
-                    raise ValueError(f"page {number + place} is damaged") from damaged
+            _clear_stretch(pages, number, there)
             number += _PAGES_AT_ONCE
         os.fsync(file.fileno())
+
+
+def clear_end(path: Path) -> None:
+    """Clear the pages at the end of a file, back to the first stretch that is clear.
+
+    Its callers see to the same as those of ``clear_remnants``. Sessions are added at the end, so a withdrawal finds
+    little to write if this is done every day. Nothing relies on it: a withdrawal looks at all pages, so this does not
+    wait for the disk.
+    """
+    with path.open("r+b", buffering=0) as file:
+        pages = _pages(file, file.read(_FILE_HEADER))
+        if pages is None:
+            return
+        following = 1 + file.seek(0, os.SEEK_END) // pages.size
+        for _ in range(_MOST_AT_THE_END):
+            number = max(1, following - _PAGES_AT_ONCE)
+            if not _clear_stretch(pages, number, pages.read(number, following - number)):
+                return
+            following = number
+
+
+def _pages(file: BinaryIO, header: bytes) -> Pages | None:
+    """Return the pages of a file; None if they may be of a form that is not known here."""
+    size = int.from_bytes(header[16:18], "big")
+    size = _LARGEST if size == 1 else size
+    if size not in _SIZES or any(header[_MOVES_PAGES]):
+        return None
+    return Pages(file, size, size - header[20])
+
+
+def _clear_stretch(pages: Pages, number: int, there: bytes) -> bool:
+    """Clear the pages from this number on, whose bytes are given; returns whether there was anything to write."""
+    written = False
+    for place in range(len(there) // pages.size):
+        try:
+            page = there[place * pages.size : (place + 1) * pages.size]
+            written = pages.clear(number + place, page) or written
+        except (struct.error, IndexError) as damaged:
+            raise ValueError(f"page {number + place} is damaged") from damaged
+    return written
 
 
 @dataclass(frozen=True)
@@ -82,33 +120,39 @@ class Pages:
         self.file.seek((number - 1) * self.size)
         return self.file.read(count * self.size)
 
-    def zero(self, number: int, page: bytes, begin: int, end: int) -> None:
-        """Write zeros over a part of a page, if anything else stands there."""
+    def zero(self, number: int, page: bytes, begin: int, end: int) -> bool:
+        """Write zeros over a part of a page, if anything else stands there; returns whether that was so."""
         if _ZEROS.startswith(page[begin:end]):
-            return
+            return False
         if sys.platform == "win32":
             self.file.seek((number - 1) * self.size + begin)
             self.file.write(_ZEROS[: end - begin])
         else:
             # One call to the system instead of two; nearly every page has such bytes the first time.
             os.pwrite(self.file.fileno(), _ZEROS[: end - begin], (number - 1) * self.size + begin)
+        return True
 
-    def clear(self, number: int, page: bytes) -> None:
-        """Clear a page of a tree, and what follows its rows elsewhere; any other page is left alone."""
+    def clear(self, number: int, page: bytes) -> bool:
+        """Clear a page of a tree, and what follows its rows elsewhere; any other page is left alone.
+
+        Returns whether anything was written.
+        """
         at = _FILE_HEADER if number == 1 else 0
         if page[at] not in _HEADERS:
-            return
+            return False
+        written = False
         for begin, end in _unused(page, at, self.usable):
-            self.zero(number, page, begin, end)
+            written = self.zero(number, page, begin, end) or written
         for length, first in _continued(page, at, self.usable):
-            self._clear_end(first, length)
+            written = self._clear_end(first, length) or written
+        return written
 
-    def _clear_end(self, number: int, length: int) -> None:
+    def _clear_end(self, number: int, length: int) -> bool:
         """Clear what follows a row on the last of the pages that it goes on on."""
         room = self.usable - 4
         while length > room:
             number, length = int.from_bytes(self.read(number)[:4], "big"), length - room
-        self.zero(number, self.read(number), 4 + length, self.size)
+        return self.zero(number, self.read(number), 4 + length, self.size)
 
     def clear_free(self, header: bytes) -> None:
         """Clear the pages that SQLite keeps for later."""

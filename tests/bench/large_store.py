@@ -12,9 +12,10 @@ from pathlib import Path
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.outcomes import AllocationSource, SessionKind
 from kiosk.store.chain import EventFields, first_hash, next_hash
-from kiosk.store.database import open_for_writing
+from kiosk.store.database import FILE, open_for_writing
 from kiosk.store.participants import AllocationLists
 from kiosk.store.recorder import Provenance, Recorder
+from kiosk.store.remnants import clear_remnants
 from tests.experiment.driver import Driver, with_memory
 from tests.samples import mixed, plan
 
@@ -61,6 +62,8 @@ def fill(folder: Path, sessions: int) -> None:
             connection.execute("INSERT INTO participant VALUES (?, '', 0, ?, 1)", (number, number))
             connection.execute("INSERT INTO withdrawal_code VALUES (randomblob(32), ?)", (number,))
         connection.execute("COMMIT")
+    # A kiosk does this bit by bit, whenever it is closed.
+    clear_remnants(folder / FILE)
 
 
 _EVENTS = "SELECT seq, at_ms, origin, type, wall_ms, payload FROM event WHERE session = ? ORDER BY seq"

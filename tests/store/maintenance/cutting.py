@@ -53,10 +53,10 @@ def cut(folder: str, code: str, step: int | None, page: int | None) -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
         return done
 
-    def zeroed(self: remnants.Pages, number: int, page: bytes, begin: int, end: int) -> None:
+    def zeroed(self: remnants.Pages, number: int, page: bytes, begin: int, end: int) -> bool:
         if any(page[begin:end]):
             steps.take()
-        zero(self, number, page, begin, end)
+        return zero(self, number, page, begin, end)
 
     remnants.Pages.zero = zeroed  # type: ignore[method-assign]
     connecting.Connection.execute = counted  # type: ignore[method-assign]  # that is where the steps are

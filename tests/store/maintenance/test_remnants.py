@@ -11,7 +11,8 @@ from random import Random
 
 import pytest
 
-from kiosk.store.remnants import Pages, clear_remnants
+from kiosk.store import remnants
+from kiosk.store.remnants import Pages, clear_end, clear_remnants
 
 OWNERS = 10
 TABLES = {
@@ -57,6 +58,45 @@ def test_nothing_is_left_of_rows_that_were_deleted(tmp_path: Path, table: str, p
         assert b"owner000" not in content
         assert everything(file) == others
     assert left_by_sqlite > 0 or page_bytes == 65536
+
+
+def test_the_end_of_a_file_is_cleared_back_to_what_is_clear_already(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(remnants, "_PAGES_AT_ONCE", 8)
+    looked_at: list[int] = []
+    clear = Pages.clear
+
+    def watched(self: Pages, number: int, page: bytes) -> bool:
+        looked_at.append(number)
+        return clear(self, number, page)
+
+    monkeypatch.setattr(Pages, "clear", watched)
+    file = tmp_path / "one.db"
+    with closing(sqlite3.connect(file, isolation_level=None)) as connection:
+        connection.execute("PRAGMA page_size = 512")
+        connection.execute("PRAGMA synchronous = OFF")
+        connection.execute(TABLES["a tree by the key"])
+    pages: list[int] = []
+    for day in range(10):
+        # In no order, so that pages are split, and the rows that move leave their bytes behind.
+        numbers = Random(day).sample(range(400), 400)
+        with closing(sqlite3.connect(file)) as connection, connection:
+            connection.execute("PRAGMA synchronous = OFF")
+            connection.executemany("INSERT INTO kept VALUES (?, ?, 'said by a visitor')", [(day, n) for n in numbers])
+        whole = everything(file)
+        clear_end(file)
+        pages.append(len(looked_at))
+        looked_at.clear()
+        assert everything(file) == whole
+    assert 8 < pages[-1] < file.stat().st_size // 512 // 2
+    clear_end(file)
+    assert len(looked_at) == 8
+    before = file.read_bytes()
+    clear_remnants(file)
+    after = file.read_bytes()
+    changed = [at for at in range(0, len(after), 512) if before[at : at + 512] != after[at : at + 512]]
+    assert len(changed) < len(after) // 512 // 10
 
 
 def test_wherever_it_is_cut_off_the_rows_are_whole_and_the_next_time_clears_the_rest(
