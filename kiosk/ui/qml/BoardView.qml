@@ -30,9 +30,10 @@ FocusScope {
     readonly property int markRow: board.markRow
     readonly property int markColumn: board.markColumn
     // How much of a cell a card takes.
-    readonly property real share: 0.91
-    // On an upright screen, what stands above the cards begins and ends with them.
-    readonly property real inset: upright ? 0.06 * cell : 0
+    readonly property real share: upright ? 0.94 : 0.91
+    // On an upright screen, what stands above the cards begins and ends with them. Their pictures have a narrow margin.
+    readonly property real margin: (1 - 0.962 * share) / 2
+    readonly property real inset: upright ? margin * cell : 0
 
     // Columns are counted from the left in every language, on the board and in what is said.
     LayoutMirroring.enabled: false
@@ -42,12 +43,12 @@ FocusScope {
     readonly property real side: broad ? Math.min(300 * Theme.unit, 0.17 * width) : 0
     // Where the cards leave room for it, the tray has two rows of larger places.
     readonly property bool tall: height - (182 + 70) * Math.max(1, Theme.textSize) * Theme.unit - rows * widest > 70 * Theme.unit
-    readonly property int shelfLines: pairs > 6 ? 2 : 1
+    readonly property int shelfLines: pairs > 12 ? 2 : 1
     readonly property int lines: upright ? shelfLines : tall ? 2 : 1
     // On an upright screen: the line of words above the tray, and a place of the tray. They depend on no height.
-    readonly property real wordsLine: ((practises ? 78 : 44) * Math.max(1, Theme.textSize) + 20) * Theme.unit + wordsApart
-    readonly property real wordsApart: (practises ? 20 : 8) * Theme.unit
-    readonly property real shelfSlot: Math.floor(Math.min(104 * Theme.unit, (width - numbers - 2 * Theme.gap) / Math.max(1, Math.ceil(pairs / shelfLines))))
+    readonly property real wordsLine: (78 * Math.max(1, Theme.textSize) + 20) * Theme.unit + wordsApart
+    readonly property real wordsApart: 20 * Theme.unit
+    readonly property real shelfSlot: Math.floor(Math.min(104 * Theme.unit, wide / Math.max(1, Math.ceil(pairs / shelfLines))))
     readonly property real shelf: wordsLine + shelfLines * shelfSlot + 8 * Theme.unit
     readonly property real usualStrip: upright ? shelf : (tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
     readonly property real strip: broad ? 0 : usualStrip
@@ -56,20 +57,23 @@ FocusScope {
     readonly property real apart: upright ? 60 * Theme.unit : 0
     readonly property real spare: Math.floor(height - 20 * Theme.unit - strip - numbers - footer - rows * widest) - 1
     readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
-        + Math.max(upright && Theme.textSize > 1.15 ? 18 * Theme.unit : 0, Math.min(apart, spare))
+        + Math.max(upright && Theme.textSize > 1.15 ? 18 * Theme.unit : 0, Math.min(apart, spare), upright ? spare / 2 : 0)
     // Where the words about the game stand: above the tray, or beside it in the same line.
     readonly property real wordsAt: 12 * Theme.unit
     readonly property real wordsHigh: upright ? wordsLine - 12 * Theme.unit - wordsApart : tray.height
     // The way to the game stands above the cards, with the tray; or below them, where large words leave no room there.
-    readonly property bool skipsBelow: !broad
-        && practice.width + progress.implicitWidth + skip.implicitWidth + (upright ? 0 : 240 * Theme.unit) + 5 * Theme.gap > width
+    readonly property real above: practice.width + progress.implicitWidth + skip.implicitWidth + (upright ? 0 : 240 * Theme.unit) + 5 * Theme.gap
+    readonly property bool skipsBelow: !broad && above > width
     // Beside the numbers there is room for a mark's arrow.
-    readonly property real numbers: (upright ? 64 : 78) * Theme.unit
+    readonly property real numbers: (upright ? 60 : 78) * Theme.unit
+    // On an upright screen the cards stand in the middle and are together as wide as the helper's sentence.
+    readonly property real wide: 0.88 * width
+    readonly property real widestUpright: wide / Math.max(1, columns - 2 * margin)
     readonly property real footer: pill.height + (upright ? 32 : 22) * Theme.unit + (practises && skipsBelow ? skip.height + Theme.gap : 0)
     // How high this item has to be on an upright screen, for cells as wide as there is room for.
-    readonly property real widest: (width - 2 * side - numbers - (upright ? 1.2 : 2) * Theme.gap) / Math.max(1, columns)
+    readonly property real widest: upright ? widestUpright : (width - 2 * side - numbers - 2 * Theme.gap) / Math.max(1, columns)
     readonly property real wish: 52 * Theme.unit + shelf + apart + numbers + pill.height
-        + rows * (width - numbers - 1.2 * Theme.gap) / Math.max(1, columns)
+        + rows * widestUpright
     // A whole number, or the last column might not fit into the sum of all by a rounding error.
     readonly property real cell: Math.floor(Math.min(widest, (height - header - numbers - footer) / Math.max(1, rows)))
     // What was last touched or turned, in this item; the assistant looks at it.
@@ -236,7 +240,9 @@ FocusScope {
         objectName: "skip"
         most: view.broad ? view.side - Theme.gap : view.width - 2 * Theme.gap
         x: view.broad ? Theme.gap : view.skipsBelow ? cards.x + (cards.width - width) / 2
-         : practice.heads ? table.x + table.width - width - view.inset : view.width - width - Theme.gap
+         : practice.heads ? table.x + table.width - width - view.inset
+         : view.above <= table.x + table.width ? table.x + (1 + view.share) / 2 * view.cell + (view.columns - 1) * view.cell - width
+         : view.width - width - Theme.gap
         y: view.broad ? table.y + table.height - height
          : view.skipsBelow ? view.height - height - Theme.gap : view.wordsAt + (view.wordsHigh - height) / 2
         visible: view.practises
@@ -249,7 +255,7 @@ FocusScope {
 
     Item {
         id: table
-        x: Math.round((view.width - width - view.numbers) / 2 + view.numbers)
+        x: Math.round((view.width - width + (view.upright ? 0 : view.numbers)) / 2)
         y: Math.round(view.header + view.numbers)
         width: view.cell * view.columns
         height: view.cell * view.rows
@@ -259,6 +265,8 @@ FocusScope {
             row: view.markRow
             column: view.markColumn
             cell: view.cell
+            arrow: (view.upright ? 19 : 24) * Theme.unit
+            apart: (view.upright ? 2 : 5) * Theme.unit
         }
         Repeater {
             model: view.columns
@@ -269,7 +277,7 @@ FocusScope {
                 y: Math.min(-view.numbers, -42 * Theme.unit - baselineOffset)
                 width: view.cell
                 text: index + 1
-                font { pixelSize: Theme.body; bold: true }
+                font { pixelSize: view.upright ? Theme.small : Theme.body; bold: true }
                 color: view.markColumn === index ? Theme.deepAmber : Theme.faintInk
                 horizontalAlignment: Text.AlignHCenter
                 // Every card's name tells its row and column.
@@ -280,12 +288,12 @@ FocusScope {
             model: view.rows
             PlainText {
                 required property int index
-                x: -view.numbers
+                x: -view.numbers + (view.upright ? 9 : 0) * Theme.unit
                 y: index * view.cell
                 width: view.numbers - 30 * Theme.unit
                 height: view.cell
                 text: index + 1
-                font { pixelSize: Theme.body; bold: true }
+                font { pixelSize: view.upright ? Theme.small : Theme.body; bold: true }
                 color: view.markRow === index ? Theme.deepAmber : Theme.faintInk
                 horizontalAlignment: Text.AlignHCenter
                 verticalAlignment: Text.AlignVCenter
@@ -473,7 +481,7 @@ FocusScope {
             }
             Rectangle {
                 anchors.fill: parent
-                anchors.margins: parent.width * 0.03
+                anchors.margins: parent.width * (0.97 - view.share) / 2
                 radius: Theme.radius * 1.4
                 color: "transparent"
                 border { color: Theme.ink; width: 5 * Theme.unit }

@@ -9,9 +9,7 @@ Item {
     required property string sentence
     required property bool hasSpeaker   // whether there is a face below it to point at
     property bool thinks: false         // whether it is still looking for words
-    property bool large: false          // whether there is width for larger letters
     property bool calls: false          // whether it is to be read from far away
-    property bool cheers: false         // whether it is one short, glad word
     property string speaker: ""         // whose words they are; empty where no speaker has a name
 
     // Between the bubble and the face; without a face only the edge of the window has to be kept clear of.
@@ -31,14 +29,14 @@ Item {
     onThinksChanged: if (thinks) words.text = sentence
     onOpacityChanged: if (opacity === 0) words.text = ""
 
-    // The sentence as large as it is usually; what is longer than any hint is set smaller anyway.
+    // The sentence as large as it is usually.
     Text {
         id: usual
         visible: false
         width: words.width
         textFormat: Text.PlainText
         text: words.text
-        font.pixelSize: Theme.size(bubble.calls || bubble.cheers ? 50 : bubble.large ? 36 : text.length > 130 ? 29 : 32)
+        font.pixelSize: Theme.size(bubble.calls ? 50 : 36)
         lineHeight: words.lineHeight
         wrapMode: Text.Wrap
     }
@@ -59,7 +57,7 @@ Item {
                 const share = Math.max(0, bubble.room / Math.max(1, usual.height))
                 return share >= 1 ? usual.font.pixelSize : Math.max(Theme.size(0), usual.font.pixelSize * 0.95 * Math.sqrt(share))
             }
-            horizontalAlignment: bubble.cheers ? Text.AlignHCenter : LayoutMirroring.enabled ? Text.AlignLeft : undefined
+            horizontalAlignment: LayoutMirroring.enabled ? Text.AlignLeft : undefined
             lineHeight: 1.12
             Accessible.role: Accessible.AlertMessage
         }

@@ -9,6 +9,7 @@ FocusScope {
 
     required property string title
     property string line: ""
+    property real titleSize: Theme.figure
     property real lineSize: Theme.body
     // What is to be noted down, large on a line of its own; empty for none.
     property string code: ""
@@ -19,9 +20,9 @@ FocusScope {
     property point middle: Qt.point(width / 2, height / 2)
     // Where the face of the one who asks begins, below the card, which then is what it says; 0 where there is no face.
     property real speaker: 0
-    // Whether the one below only rests, and says nothing.
-    property bool silent: false
-    readonly property real tail: speaker > 0 && !silent ? 34 * Theme.unit : 0
+    readonly property real tail: speaker > 0 ? 34 * Theme.unit : 0
+    // How high it is at least.
+    property real least: 0
     // What there is to choose: the name of each, its words, and whether it is quiet. The first has the keyboard.
     property var choices: []
     signal chosen(string name)
@@ -61,8 +62,9 @@ FocusScope {
         id: card
         x: Math.round(calm.middle.x - width / 2)
         y: Math.round(calm.speaker > 0 ? Math.max(2 * Theme.gap, calm.speaker - height - calm.tail - 0.5 * Theme.gap) : calm.middle.y - height / 2)
-        width: Math.min(parent.width - 4 * Theme.gap, 900 * Theme.unit)
-        height: content.height + 5 * Theme.gap
+        // As wide as what the helper says below a board.
+        width: calm.speaker > 0 ? 0.88 * parent.width : Math.min(parent.width - 4 * Theme.gap, 900 * Theme.unit)
+        height: Math.max(calm.least, content.height + 5 * Theme.gap)
         radius: Theme.radius
         color: Theme.white
         border { color: Theme.sea; width: 4 * Theme.unit }
@@ -129,7 +131,7 @@ FocusScope {
             Balanced {
                 width: parent.width
                 text: calm.title
-                font { pixelSize: Theme.figure; bold: true }
+                font { pixelSize: calm.titleSize; bold: true }
                 color: Theme.ink
                 Accessible.role: Accessible.AlertMessage
                 Accessible.name: text

@@ -131,7 +131,8 @@ Window {
         readonly property real upright: !root.speaks ? (root.texts > 1.15 && root.kiosk.screen !== "form" ? 0.86 : 0.78)
               : attractView.visible ? (root.texts > 1.3 ? 0.76 : Math.max(0.57, 0.57 + 0.25 * (root.texts - 1)))
               : !boardView.visible ? 0.64
-              : Math.max(0.5, Math.min(0.64, boardView.wish / root.room))
+              // The helper keeps its size from the practice to the game.
+              : Math.max(0.62, Math.min(0.64, boardView.wish / root.room))
         // A screen that has only just come takes no input: a double click belongs to the one before.
         enabled: root.kiosk.takesInput && root.kiosk.bare
 
@@ -275,13 +276,14 @@ Window {
         middle: root.whole || !helper.visible ? Qt.point(root.width / 2, root.room / 2)
               : root.wide ? stage.middle : Qt.point(root.width / 2, 0.36 * root.room)
         speaker: root.faceBelow
-        silent: true
+        least: (root.faceBelow > 0 ? 625 : 500) * Theme.unit
         breathes: true
         sign: "M8 4 V20 M16 4 V20"
         thick: 4.7
         title: root.words["pause-title"]
+        titleSize: Theme.size(76)
         line: root.kiosk.pauseLine
-        lineSize: Theme.size(40)
+        lineSize: Theme.size(46)
     }
     SidePanel {
         id: helper
@@ -309,7 +311,6 @@ Window {
         share: root.wide ? (attractView.visible ? 0.6 : 0.52) : root.texts <= 1.15 ? (boardView.visible ? 0.68 : attractView.visible ? 0.88 : root.kiosk.screen === "introduction" ? 0.65 : 0.72) : 0.64
         broad: !root.wide
         calls: root.accompanied && attractView.visible
-        cheers: done
         leads: root.asking || !root.speaks
         hushed: root.asking && !root.wide
         readonly property bool done: boardView.visible && boardView.last.length > 0 && !root.board.practice

@@ -1,5 +1,6 @@
-// The mark of a hint. Card, row and column differ in shape, not only in place: a frame with corners, a band with an
-// arrow from the left, a band with an arrow from above.
+// The mark of a hint. Card, row and column differ in shape, not only in place: a frame with an arrow at both of its
+// numbers, a band with an arrow from the left, a band with an arrow from above.
+pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Shapes
 import "."
@@ -10,6 +11,9 @@ Item {
     required property int row
     required property int column
     required property real cell
+    // How long an arrow is, and how far its point stays from the cards' places.
+    property real arrow: 24 * Theme.unit
+    property real apart: 5 * Theme.unit
 
     // Not named onRow and so on: QML would take such a name for a signal's handler.
     readonly property bool marksRow: row >= 0 && column < 0
@@ -17,7 +21,7 @@ Item {
     readonly property bool marksCard: row >= 0 && column >= 0
 
     component Arrow: Shape {
-        width: 24 * Theme.unit
+        width: mark.arrow
         height: 34 * Theme.unit
         ShapePath {
             fillColor: Theme.amber
@@ -25,7 +29,7 @@ Item {
             strokeWidth: 3 * Theme.unit
             joinStyle: ShapePath.RoundJoin
             startX: 2 * Theme.unit; startY: 2 * Theme.unit
-            PathLine { x: 22 * Theme.unit; y: 17 * Theme.unit }
+            PathLine { x: mark.arrow - 2 * Theme.unit; y: 17 * Theme.unit }
             PathLine { x: 2 * Theme.unit; y: 32 * Theme.unit }
             PathLine { x: 2 * Theme.unit; y: 2 * Theme.unit }
         }
@@ -39,7 +43,6 @@ Item {
         radius: Theme.radius
         color: Theme.amber
         border { color: Theme.deepAmber; width: 4 * Theme.unit }
-        Arrow { x: -width - 5 * Theme.unit; anchors.verticalCenter: parent.verticalCenter }
     }
     Rectangle {
         visible: mark.marksColumn
@@ -49,7 +52,6 @@ Item {
         radius: Theme.radius
         color: Theme.amber
         border { color: Theme.deepAmber; width: 4 * Theme.unit }
-        Arrow { y: 2 * Theme.unit - height; anchors.horizontalCenter: parent.horizontalCenter; rotation: 90 }
     }
     Rectangle {
         visible: mark.marksCard
@@ -60,5 +62,17 @@ Item {
         radius: Theme.radius * 1.4
         color: Theme.amber
         border { color: Theme.deepAmber; width: 6 * Theme.unit }
+    }
+    // Between a number and the cards.
+    Arrow {
+        visible: mark.row >= 0
+        x: -width - mark.apart
+        y: (mark.row + 0.5) * mark.cell - height / 2
+    }
+    Arrow {
+        visible: mark.column >= 0
+        x: (mark.column + 0.5) * mark.cell - width / 2
+        y: -(height + width) / 2 - mark.apart
+        rotation: 90
     }
 }

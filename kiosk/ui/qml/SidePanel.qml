@@ -31,8 +31,6 @@ Item {
     readonly property real faceTop: face.y + 0.1 * face.height
     // Whether it speaks to those who pass.
     property bool calls: false
-    // Whether what it says beside a sentence is one short, glad word.
-    property bool cheers: false
     // A sentence that was read long ago, and is not shown any more.
     property string stale: ""
 
@@ -110,8 +108,6 @@ Item {
         hasSpeaker: panel.avatar.present
         speaker: panel.avatar.name
         calls: panel.calls
-        cheers: panel.cheers && panel.said === ""
-        large: panel.broad || panel.aside !== ""
     }
     Avatar {
         id: face

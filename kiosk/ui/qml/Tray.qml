@@ -9,8 +9,10 @@ Item {
     required property int places
     required property list<string> pictures
     required property int lines
-    // Whether the places take all of its width; the two cards of a pair then lie further apart.
+    // Whether the places take all of its width.
     property bool spreads: false
+    // Whether there is room for the two cards of a pair beside each other.
+    readonly property bool paired: spreads && pitch > 1.3 * slot
     // How many of the pictures have arrived.
     required property int landed
     required property url back
@@ -20,7 +22,7 @@ Item {
     readonly property real slot: Math.floor(Math.min(width / Math.max(1, columns), height / Math.max(1, lines)))
 
     // A whole number, as the board loads them beforehand.
-    readonly property int card: Math.round(slot * (spreads ? 0.66 : 0.74))
+    readonly property int card: Math.round(slot * (paired ? 0.66 : 0.74))
     readonly property real pitch: spreads ? width / Math.max(1, columns) : slot
 
     // Where the picture with this number lies, in the tray.
@@ -66,8 +68,8 @@ Item {
                     readonly property int side: index === 0 ? -1 : 1
                     anchors {
                         centerIn: parent
-                        horizontalCenterOffset: side * Math.max(0.05 * tray.slot, Math.min(0.5 * tray.card + Theme.unit, (place.width - tray.card) / 2 - 0.09 * tray.slot))
-                        verticalCenterOffset: tray.spreads ? 0 : side * 0.05 * tray.slot
+                        horizontalCenterOffset: side * (!tray.paired ? 0.05 * tray.slot : Math.max(0.05 * tray.slot, Math.min(0.5 * tray.card + Theme.unit, (place.width - tray.card) / 2 - 0.09 * tray.slot)))
+                        verticalCenterOffset: tray.paired ? 0 : side * 0.05 * tray.slot
                     }
                     width: tray.card
                     height: width
