@@ -83,10 +83,15 @@ def test_the_way_to_agree_stands_back_until_the_required_boxes_are_ticked_and_ca
 ) -> None:
     assert (booth.item("agree").property("quiet"), booth.item("agree").property("waits")) == (True, True)
     assert not booth.item("decline").property("waits")
+    assert booth.item("consent-waits").property("text") == "To take part, tick the 2 boxes that are needed"
+    height = booth.item("consent-waits").height()
+    booth.app.screens.consent.show_ticks(REQUIRED - {"store"})
+    assert booth.item("consent-waits").property("text") == "To take part, tick the box that is needed"
     booth.click("agree")
     assert done == ["agreed"]
     booth.app.screens.consent.show_ticks(REQUIRED)
     assert not booth.item("agree").property("quiet")
+    assert (booth.item("consent-waits").property("text"), booth.item("consent-waits").height()) == ("", height)
 
 
 def test_what_is_missing_is_said_in_words_until_it_is_ticked(booth: Booth, done: Done) -> None:

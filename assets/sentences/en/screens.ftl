@@ -35,6 +35,12 @@ return-as-new = This code is not known here. You can play all the same, as a new
 consent-required = needed to take part
 consent-optional = up to you
 consent-missing = Please tick this box if you want to take part.
+# Above the way on, as long as boxes that are needed have no tick.
+consent-waits =
+    { $number ->
+        [one] To take part, tick the box that is needed
+       *[other] To take part, tick the { $number } boxes that are needed
+    }
 consent-agree = I take part
 consent-decline = Play without taking part
 consent-more = Read all of it

@@ -36,6 +36,12 @@ return-as-new = Aquí no se conoce este código. Puedes jugar igualmente, como s
 consent-required = necesario para participar
 consent-optional = como prefieras
 consent-missing = Si quieres participar, marca esta casilla.
+# Above the way on, as long as boxes that are needed have no tick.
+consent-waits =
+    { $number ->
+        [one] Para participar, marca la casilla necesaria
+       *[other] Para participar, marca las { $number } casillas necesarias
+    }
 consent-agree = Participo
 consent-decline = Jugar sin participar
 consent-more = Leer todo

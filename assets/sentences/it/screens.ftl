@@ -36,6 +36,12 @@ return-as-new = Qui questo codice non è conosciuto. Puoi giocare lo stesso, com
 consent-required = necessario per partecipare
 consent-optional = come preferisci
 consent-missing = Se vuoi partecipare, spunta questa casella.
+# Above the way on, as long as boxes that are needed have no tick.
+consent-waits =
+    { $number ->
+        [one] Per partecipare, spunta la casella necessaria
+       *[other] Per partecipare, spunta le { $number } caselle necessarie
+    }
 consent-agree = Partecipo
 consent-decline = Gioco senza partecipare
 consent-more = Leggi tutto

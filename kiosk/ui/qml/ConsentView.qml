@@ -9,6 +9,8 @@ PageFrame {
 
     required property ConsentScreen consent
 
+    // How much of the page is kept for the line above the way on, also when it says nothing: nothing moves.
+    readonly property real kept: Math.max(0, reason.height + 30 * Theme.unit - Theme.gap)
     // Whether all of the text is shown, or what stands for it in short.
     property bool whole: false
     readonly property bool short: consent.points.length > 0 && !whole
@@ -22,6 +24,7 @@ PageFrame {
     other: words["consent-decline"]
     way.name: "agree"
     way.waits: !consent.complete
+    way.reason: consent.waiting
     way.otherName: "decline"
     onWent: consent.agree()
     onTurnedDown: consent.decline()
@@ -53,7 +56,7 @@ PageFrame {
     }
     FocusScope {
         id: home
-        y: view.sink(height)
+        y: Math.min(view.sink(height), view.room - view.kept - height)
         width: parent?.width ?? 0
         height: pane.height
         // At first at no box: the page is read from its top, and no key ticks what was not seen. Tab goes to the first.
@@ -63,10 +66,10 @@ PageFrame {
         ScrollPane {
             id: pane
             width: parent.width
-            room: view.room
+            room: view.room - view.kept
             more: view.words["scroll-more"]
             // What there is to tick stands apart from what is read, as far as the page has room.
-            spacing: Math.max(0.5 * Theme.gap, Math.min((view.width < view.height ? 3.4 : 2.2) * Theme.gap, view.room - (view.short ? points.height : sheet.height) - boxes.height))
+            spacing: Math.max(0.5 * Theme.gap, Math.min((view.width < view.height ? 3.4 : 2.2) * Theme.gap, room - (view.short ? points.height : sheet.height) - boxes.height))
 
             Column {
                 id: points
@@ -74,7 +77,7 @@ PageFrame {
                 width: pane.width
                 // Larger on an upright screen, but where large texts need the room themselves.
                 readonly property bool airy: Theme.textSize <= 1.15 && (view.width < view.height
-                    || (view.accompanied && 100 * view.read.length + 150 * view.consent.purposes.length + 90 <= view.room / Theme.unit))
+                    || (view.accompanied && 95 * view.read.length + 140 * view.consent.purposes.length + 85 <= pane.room / Theme.unit))
                 spacing: (airy ? 1.2 : 0.6) * Theme.gap
                 Repeater {
                     model: view.short ? view.read : []
@@ -151,6 +154,27 @@ PageFrame {
                 }
             }
         }
+    }
+    // Why the way on waits, right above it.
+    PlainText {
+        id: reason
+        objectName: "consent-waits"
+        readonly property real tall: metrics.height
+        FontMetrics {
+            id: metrics
+            font: reason.font
+        }
+        y: view.foot - view.begin - height - 12 * Theme.unit
+        width: parent?.width ?? 0
+        height: tall
+        text: view.consent.waiting
+        font { pixelSize: Theme.small; bold: true }
+        fontSizeMode: Text.HorizontalFit
+        minimumPixelSize: Theme.size(20)
+        horizontalAlignment: Text.AlignRight
+        verticalAlignment: Text.AlignVCenter
+        color: Theme.faintInk
+        Accessible.ignored: text === ""
     }
     Connections {
         target: view.consent

@@ -19,7 +19,7 @@ Choosable {
 
     horizontalPadding: (large ? 28 : 17) * Theme.unit
     verticalPadding: (broad ? 0.8 : roomy ? 0.7 : 0.45) * Theme.gap
-    font.pixelSize: large ? Theme.size(36) : Theme.reading
+    font.pixelSize: large ? Theme.size(broad ? 36 : 34) : Theme.reading
     Accessible.role: Accessible.CheckBox
     Accessible.name: words
     Accessible.description: warning || note
@@ -95,28 +95,20 @@ Choosable {
             Item {
                 visible: parts.below
                 width: parent.width
-                height: tag.height + 10 * Theme.unit
+                height: tag.height + 4 * Theme.unit
             }
         }
-        Rectangle {
+        // A text and no more: with a frame it would look like a button.
+        Text {
             id: tag
             visible: parts.beside || parts.below
             x: parts.below ? told.x + Theme.across(0, width, told.width) : Theme.across(parts.width - width, width, parts.width)
             y: parts.below ? told.y + told.height - height : (parts.height - height) / 2
-            width: label.implicitWidth + 32 * Theme.unit
-            height: label.implicitHeight + 6 * Theme.unit
-            radius: height / 2
-            color: box.needed && !box.on ? Theme.sand : Theme.white
-            border { color: Theme.slot; width: 2 * Theme.unit }
-            Text {
-                id: label
-                anchors.centerIn: parent
-                textFormat: Text.PlainText
-                text: box.note
-                font { pixelSize: box.large ? Theme.size(28) : Theme.small; bold: true }
-                color: Theme.ink
-                Accessible.ignored: true
-            }
+            textFormat: Text.PlainText
+            text: box.note
+            font { pixelSize: box.large ? Theme.size(28) : Theme.small; bold: box.needed }
+            color: Theme.faintInk
+            Accessible.ignored: true
         }
     }
 }

@@ -13,7 +13,9 @@ FocusScope {
     property string label: ""
     property bool quiet: false
     property bool waits: false
-    // Whether the way on takes what the way back leaves of the width, where there is no other.
+    // Why it waits, for those who cannot see it.
+    property string reason: ""
+    // Whether the ways on take what the way back leaves of the width, with gaps as wide between all of them.
     property bool fills: false
     // How large the letters of the way on are.
     property real size: Theme.body
@@ -49,11 +51,13 @@ FocusScope {
         objectName: ways.name
         visible: ways.label !== ""
         most: ways.width
-        width: !ways.fills || no.visible ? Math.min(implicitWidth, most)
-             : ways.beside && back.visible ? ways.width - back.width - Theme.gap : ways.width
+        width: !ways.fills || ways.beside && no.visible ? Math.min(implicitWidth, most)
+             // No wider than the other way on, which is as easy to find.
+             : (ways.beside || ways.paired) && back.visible ? ways.width - back.width - Theme.gap : ways.width
         x: Theme.across(ways.width - width, width, ways.width)
         quiet: ways.quiet
         waits: ways.waits
+        Accessible.description: ways.reason
         words: ways.label
         font.pixelSize: ways.size
         focus: true
@@ -64,6 +68,8 @@ FocusScope {
         objectName: ways.otherName
         visible: ways.other !== ""
         most: ways.width
+        width: !ways.fills || !back.visible ? Math.min(implicitWidth, most)
+             : ways.beside ? ways.width - go.width - back.width - 2 * Theme.gap : ways.paired ? ways.width - back.width - Theme.gap : ways.width
         x: Theme.across(ways.width - width - (ways.beside ? go.width + Theme.gap : 0), width, ways.width)
         y: ways.beside ? 0 : go.height + ways.step
         quiet: true

@@ -317,11 +317,17 @@ class ConsentScreen(QObject):
     agreed = Signal()
     declined = Signal()
 
-    def __init__(self, parent: QObject | None = None) -> None:
+    def __init__(self, catalogue: Catalogue, parent: QObject | None = None) -> None:
         super().__init__(parent)
+        self._catalogue = catalogue
         self._page: ConsentPage | None = None
         self._ticks: frozenset[str] = frozenset()
         self._missing: tuple[str, ...] = ()
+
+    def set_language(self, catalogue: Catalogue) -> None:
+        """Say in this language what is still to be ticked."""
+        self._catalogue = catalogue
+        self.marked.emit()
 
     def show(self, page: ConsentPage) -> None:
         """Show this page; nothing is ticked."""
@@ -398,6 +404,11 @@ class ConsentScreen(QObject):
     def complete(self) -> bool:
         """Whether every required purpose is ticked."""
         return self._page is not None and not self.needed
+
+    @Property(str, notify=marked)
+    def waiting(self) -> str:
+        """Return what is still to be ticked to take part; empty if nothing is."""
+        return self._catalogue.text("consent-waits", number=len(self.needed)) if self.needed else ""
 
     @Slot(str, bool)
     def tick(self, purpose: str, ticked: bool) -> None:  # noqa: FBT001 - QML gives no names

@@ -88,7 +88,7 @@ class ScreenSet:
             kiosk=kiosk,
             attract=AttractScreen(pictures.deck(study.settings.game.deck), catalogues, owner),
             about=AboutScreen(owner),
-            consent=ConsentScreen(owner),
+            consent=ConsentScreen(first, owner),
             age=AgeScreen(first, owner),
             form=FormScreen(first, partial(resolve, "scales"), owner),
             introduction=IntroductionScreen(owner),
@@ -113,7 +113,16 @@ class ScreenSet:
 
     def set_language(self, catalogue: Catalogue) -> None:
         """Show everything in this language."""
-        for screen in (self.kiosk, self.age, self.form, self.board, self.result, self.debrief, self.returning):
+        for screen in (
+            self.kiosk,
+            self.consent,
+            self.age,
+            self.form,
+            self.board,
+            self.result,
+            self.debrief,
+            self.returning,
+        ):
             screen.set_language(catalogue)
 
     def clear(self) -> None:

@@ -35,6 +35,12 @@ return-as-new = Diesen Code kennen wir hier nicht. Du kannst trotzdem spielen, w
 consent-required = nötig, um teilzunehmen
 consent-optional = wie du möchtest
 consent-missing = Bitte kreuze das an, wenn du teilnehmen möchtest.
+# Above the way on, as long as boxes that are needed have no tick.
+consent-waits =
+    { $number ->
+        [one] Kreuze das nötige Kästchen an, um teilzunehmen
+       *[other] Kreuze die { $number } nötigen Kästchen an, um teilzunehmen
+    }
 consent-agree = Ich nehme teil
 consent-decline = Spielen ohne Teilnahme
 consent-more = Alles lesen
