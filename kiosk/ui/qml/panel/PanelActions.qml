@@ -12,6 +12,8 @@ PanelSection {
     readonly property var words: panel.words
     readonly property var choices: panel.choices
     readonly property real space: apart
+    // How high they are: higher where they have a column of their own.
+    readonly property real tall: (wide ? 84 : 72) * Theme.unit
 
     title: words["console-actions"]
 
@@ -20,12 +22,12 @@ PanelSection {
         property int row: !actions.choices.underWay ? (actions.wide ? 1 : 2) : actions.wide ? 2 : 3
         readonly property real room: parent?.width ?? Infinity
         readonly property real each: (room - (row - 1) * actions.space) / row - 0.5
-        least: 68 * Theme.unit
+        least: actions.tall
         width: implicitWidth <= each ? each : room
     }
     // What is pressed all day: the largest.
     component Main: PanelButton {
-        least: 92 * Theme.unit
+        least: (actions.wide ? 108 : 92) * Theme.unit
         width: actions.wide ? parent?.width ?? Infinity : ((parent?.width ?? Infinity) - actions.space) / 2 - 0.5
         font.pixelSize: Theme.dense * 1.18
     }
@@ -83,6 +85,7 @@ PanelSection {
         width: actions.wide || !actions.choices.underWay ? parent.width : (parent.width - 2 * Theme.gap) / 2
         action: "break"
         even: true
+        least: actions.tall
         title: actions.words["console-break"]
         options: actions.choices.breaks ?? []
         chosen: actions.choices.break ?? ""
@@ -110,7 +113,7 @@ PanelSection {
         visible: actions.choices.underWay
         anchors { right: parent.right; bottom: parent.bottom; margins: 0.8 * Theme.gap; bottomMargin: 1.1 * Theme.gap }
         width: actions.wide ? actions.width - 1.6 * Theme.gap : actions.width / 2 - 1.8 * Theme.gap
-        least: (actions.wide ? 68 : 60) * Theme.unit
+        least: actions.tall
         grave: true
         words: actions.words["console-abort"]
         onClicked: actions.panel.wish("abort", "")

@@ -16,7 +16,7 @@ Button {
     property bool filled: false
     // What takes something from a visitor.
     property bool grave: false
-    property real least: 60 * Theme.unit
+    property real least: 68 * Theme.unit
     readonly property color tone: grave ? Theme.deepAmber : Theme.sea
     readonly property bool solid: chosen || (filled && enabled)
     property int alignment: Text.AlignHCenter

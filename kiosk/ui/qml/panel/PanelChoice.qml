@@ -13,6 +13,7 @@ Column {
     property bool titled: true
     // Whether they take all of the width, in one row where their words fit.
     property bool even: false
+    property real least: 68 * Theme.unit
     readonly property real each: (width - (options.length - 1) * 9 * Theme.unit) / Math.max(1, options.length) - 0.5
     signal picked(string value)
 
@@ -38,6 +39,7 @@ Column {
                 words: modelData.label
                 chosen: modelData.value === choice.chosen
                 choosable: true
+                least: choice.least
                 width: choice.even && implicitWidth <= choice.each ? choice.each : Math.min(implicitWidth, choice.width)
                 Accessible.role: Accessible.RadioButton
                 Accessible.name: `${choice.title} ${words}`

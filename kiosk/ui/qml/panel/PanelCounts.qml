@@ -13,9 +13,16 @@ PanelSection {
 
     readonly property real first: width * 0.16
     readonly property real between: 0.6 * Theme.gap
-    readonly property real other: (width - first - between - 1.6 * Theme.gap) / 5
+    // As wide as each other, so that the numbers stand at even steps.
+    readonly property real other: (width - 1.6 * Theme.gap - first - (shown + 1) * between) / (shown + 1)
+    // Past a list is only what there is one for.
+    readonly property int shown: columns.filter(told).length
 
     readonly property list<string> columns: ["dropped", "overridden", "beyond", "withdrawn"]
+
+    function told(column: string): bool {
+        return records.listed || column !== "beyond"
+    }
 
     // Without a list there is no quota: its sessions are counted as soon as they begin.
     readonly property string heading: words[records.listed ? "console-counts-done" : "console-counts-begun"]
@@ -25,12 +32,15 @@ PanelSection {
     title: words[records.listed ? "console-counts" : "console-counts-unlisted"]
 
     Row {
-        PlainText { width: counts.first + counts.between; text: " "; font.pixelSize: counts.size }
-        PanelCell { width: counts.other; words: counts.heading; heading: true; number: !counts.records.listed; size: counts.size }
+        spacing: counts.between
+        PlainText { width: counts.first; text: " "; font.pixelSize: counts.size }
+        PanelCell { anchors.bottom: parent.bottom; width: counts.other; words: counts.heading; heading: true; number: !counts.records.listed; size: counts.size }
         Repeater {
             model: counts.columns
             delegate: PanelCell {
                 required property string modelData
+                anchors.bottom: parent?.bottom
+                visible: counts.told(modelData)
                 width: counts.other
                 words: counts.words["console-counts-" + modelData]
                 heading: true
@@ -44,9 +54,9 @@ PanelSection {
         delegate: Row {
             id: cell
             required property var modelData
+            spacing: counts.between
             PlainText {
-                width: counts.first + counts.between
-                rightPadding: counts.between
+                width: counts.first
                 text: cell.modelData.name
                 font { pixelSize: counts.size; bold: true }
                 color: Theme.ink
@@ -83,6 +93,7 @@ PanelSection {
                 delegate: PanelCell {
                     required property int index
                     required property string modelData
+                    visible: counts.told(counts.columns[index])
                     width: counts.other
                     words: modelData
                     column: counts.words["console-counts-" + counts.columns[index]]

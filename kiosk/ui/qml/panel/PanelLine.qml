@@ -13,10 +13,12 @@ Item {
     // What a button behind the words says; none without.
     property string action: ""
     property bool ready: true
+    // How high it is at least.
+    property real least: 0
     readonly property real space: 10 * Theme.unit
     signal asked()
 
-    height: Math.max(said.height, button.visible ? button.height : 0)
+    height: Math.max(least, said.height, button.visible ? button.height : 0)
 
     Row {
         id: said
@@ -26,13 +28,14 @@ Item {
         PanelMark { id: mark; well: row.line.is_ok; size: row.size }
         PlainText {
             id: name
-            width: row.width * 0.29
+            width: Math.min(0.29 * row.width, 9 * row.size)
             text: row.line.name
             font { pixelSize: row.size; bold: true }
             color: Theme.ink
             wrapMode: Text.Wrap
         }
         PlainText {
+            id: message
             width: said.width - mark.width - name.width - 2 * row.space
             text: row.line.is_ok || row.notWell === "" ? row.line.message : row.notWell
             font.pixelSize: row.size
@@ -43,7 +46,9 @@ Item {
     PanelButton {
         id: button
         objectName: "test-" + row.line.part
-        anchors { right: parent.right; verticalCenter: parent.verticalCenter }
+        // Close behind the words.
+        x: Theme.across(Math.min(row.width - width, mark.width + name.width + message.contentWidth + 4 * row.space), width, row.width)
+        anchors.verticalCenter: parent.verticalCenter
         width: implicitWidth
         visible: row.action !== ""
         enabled: row.ready

@@ -9,12 +9,14 @@ Rectangle {
 
     required property PanelScreen panel
     required property bool wide
+    // Where the second of the cards below begins, so that the numbers stand above what it says.
+    required property real split
     readonly property var tiles: panel.today.tiles
     readonly property var stage: tiles.find(each => each.name === "stage")
     readonly property real inset: 0.8 * Theme.gap
     readonly property real room: width - 2 * inset
     // Where the numbers begin: beside what is going on, or below it.
-    readonly property real from: wide ? room * 0.42 : 0
+    readonly property real from: wide ? split : 0
 
     height: numbers.y + numbers.height + 0.7 * Theme.gap
     radius: Theme.radius
@@ -28,13 +30,13 @@ Rectangle {
         y: 0.6 * Theme.gap
         width: now.wide ? now.from - now.inset : now.room
         height: implicitHeight
-        size: Theme.dense * 2.5
+        size: Theme.dense * 2.1
         title: now.stage?.title ?? ""
         value: now.stage?.value ?? ""
         line: [now.stage?.line ?? "", now.panel.choices.underWay ? now.panel.choices.session : ""].filter(each => each !== "").join(" · ")
     }
     Rectangle {
-        x: now.wide ? now.from - 0.5 * now.inset : now.inset
+        x: now.wide ? now.from - 0.4 * Theme.gap : now.inset
         y: now.wide ? now.inset : state.y + state.height + 0.5 * Theme.gap
         width: now.wide ? 2 * Theme.unit : now.room
         height: now.wide ? now.height - 2 * now.inset : 2 * Theme.unit
@@ -56,7 +58,7 @@ Rectangle {
                 objectName: "today-" + modelData.name
                 width: numbers.each
                 height: implicitHeight
-                size: Theme.dense * 1.9
+                size: Theme.dense * 2.1
                 title: modelData.title
                 value: modelData.value
                 line: modelData.line

@@ -23,6 +23,11 @@ Item {
     // Where what stands side by side begins, and where the status ends.
     readonly property real below: first.height + space
     readonly property real foot: below + left.height
+    // What the status has of a wide screen, and how high each of its lines then is; upright, as high as a button.
+    readonly property real room: wide && panel.alarms.length === 0 ? Math.floor(seen - below) : 0
+    readonly property real each: wide ? Math.max(0, Math.min(76 * Theme.unit, 0.97 * (room - 3.9 * size) / (panel.health.lines.length + 1) - apart)) : 38 * Theme.unit
+    // A line that is as high as the button in it needs no more room around it.
+    readonly property real apart: (!wide ? 9 : room > 0 ? 2 : 14) * Theme.unit
 
     height: wide ? Math.max(right.height, left.y + left.height, middle.y + middle.height) : middle.y + middle.height
 
@@ -30,7 +35,7 @@ Item {
         id: first
         width: today.main
         spacing: today.space
-        PanelNow { width: parent.width; panel: today.panel; wide: today.wide }
+        PanelNow { width: parent.width; panel: today.panel; wide: today.wide; split: today.half + today.space }
         PanelNotice { width: parent.width; health: today.panel.health }
     }
     Column {
@@ -44,7 +49,7 @@ Item {
             panel: today.panel
             wide: today.wide
             // Beside the others it ends with them, if what stands at its foot is seen then.
-            least: today.wide && today.panel.choices.underWay && today.panel.records.resumable.length === 0 ? Math.min(today.foot, today.seen) : 0
+            least: today.wide && today.panel.records.resumable.length === 0 ? Math.min(today.foot, today.seen) : 0
         }
         PanelResume { width: parent.width; panel: today.panel }
     }
@@ -56,9 +61,10 @@ Item {
         PanelAlarms { width: parent.width; panel: today.panel; size: today.size; visible: today.panel.alarms.length > 0 }
         PanelSection {
             width: parent.width
-            apart: (today.wide ? 14 : 9) * Theme.unit
+            apart: today.apart
             size: today.size
             title: today.words["console-health"]
+            least: today.room
             Repeater {
                 model: today.panel.health.lines
                 delegate: PanelLine {
@@ -66,6 +72,7 @@ Item {
                     line: modelData
                     width: parent.width
                     size: today.size
+                    least: today.each
                     // The notice above tells what it is.
                     notWell: today.words["console-health-not"]
                     action: modelData.part === "voice" ? today.words["console-test-voice"] : ""
@@ -78,6 +85,7 @@ Item {
                 visible: today.panel.alarms.length === 0
                 width: parent.width
                 size: today.size
+                least: today.each
                 line: ({
                     name: today.words["console-alarms"],
                     message: today.words[today.panel.health.well ? "console-alarms-none" : "console-alarms-none-but-notice"],
@@ -105,7 +113,7 @@ Item {
         PanelSessions {
             width: parent.width
             size: today.size
-            least: today.wide ? today.foot - today.below - counts.height - today.space : 0
+            least: today.wide ? Math.floor(today.foot - today.below - counts.height - today.space - Theme.unit) : 0
             words: today.words
             records: today.panel.records
         }
