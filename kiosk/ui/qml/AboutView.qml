@@ -17,8 +17,6 @@ PageFrame {
     label: words["about-continue"]
     other: returning.offered ? words["return-offer"] : ""
     way.otherName: "return-offer"
-    // No less than the lines above it; large texts need the room themselves.
-    way.size: Theme.textSize > 1.15 ? Theme.body : Theme.size(40)
     onTurnedDown: kiosk.ask("code")
     onWent: about.proceed()
     // Whatever the last visitor's keyboard was at, the next one's is at the button.

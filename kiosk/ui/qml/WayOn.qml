@@ -17,8 +17,6 @@ FocusScope {
     property string reason: ""
     // Whether the ways on take what the way back leaves of the width, with gaps as wide between all of them.
     property bool fills: false
-    // How large the letters of the way on are.
-    property real size: Theme.body
     // What the other way on says, such as a no; and what the two are called.
     property string other: ""
     property string name: "continue"
@@ -59,7 +57,6 @@ FocusScope {
         waits: ways.waits
         Accessible.description: ways.reason
         words: ways.label
-        font.pixelSize: ways.size
         focus: true
         onClicked: ways.went()
     }
