@@ -112,6 +112,18 @@ def test_the_qr_code_also_says_what_the_study_was_about(debriefed: Booth) -> Non
     assert debriefed.app.screens.debrief.payload == f"Please delete my data: {CODE}\nWe study how a robot can help."
 
 
+def test_the_card_says_what_a_telephone_finds_in_the_qr_code(debriefed: Booth) -> None:
+    debrief = debriefed.app.screens.debrief
+    assert debrief.property("scanning") == "Scan: a message to us with your code, to be sent"
+    debrief.give_contact("")
+    debrief.give_summary("We study how a robot can help.")
+    assert debrief.property("scanning") == "Scan: your code, and what we study"
+    debrief.give_summary("")
+    assert debrief.property("scanning") == "Scan: your code"
+    debrief.give_code("")
+    assert not debrief.property("scanning")
+
+
 def test_the_result_shows_the_pairs_that_were_found_and_the_hints_only_if_there_were_any(booth: Booth) -> None:
     screens = booth.app.screens
     screens.board.deal(2, 2, 2, "animals")

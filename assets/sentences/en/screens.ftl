@@ -155,6 +155,9 @@ keyboard-signs = Signs
 
 debrief-take-home = To take home: photograph this card
 debrief-code = Your code
+debrief-scan-letter = Scan: a message to us with your code, to be sent
+debrief-scan-summary = Scan: your code, and what we study
+debrief-scan = Scan: your code
 debrief-withdraw-by-mail = To have your data deleted, send this code to { $contact }
 debrief-withdraw-here = To have your data deleted, tell this code to the people at this table.
 debrief-return = With this code you can come back another day.

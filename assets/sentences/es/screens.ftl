@@ -156,6 +156,9 @@ keyboard-signs = Signos
 
 debrief-take-home = Para llevar a casa: haz una foto de esta tarjeta
 debrief-code = Tu código
+debrief-scan-letter = Escanea: un mensaje para nosotros con tu código, para enviar
+debrief-scan-summary = Escanea: tu código, y qué estudiamos
+debrief-scan = Escanea: tu código
 debrief-withdraw-by-mail = Para que borremos tus datos, envía este código a { $contact }
 debrief-withdraw-here = Para que borremos tus datos, di este código a las personas de esta mesa.
 debrief-return = Con este código puedes volver otro día.

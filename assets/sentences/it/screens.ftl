@@ -160,6 +160,9 @@ keyboard-signs = Segni
 
 debrief-take-home = Da portare a casa: fotografa questa scheda
 debrief-code = Il tuo codice
+debrief-scan-letter = Inquadra: un messaggio per noi con il tuo codice, da inviare
+debrief-scan-summary = Inquadra: il tuo codice, e che cosa studiamo
+debrief-scan = Inquadra: il tuo codice
 debrief-withdraw-by-mail = Per far cancellare i tuoi dati, manda questo codice a { $contact }
 debrief-withdraw-here = Per far cancellare i tuoi dati, di' questo codice alle persone a questo tavolo.
 debrief-return = Con questo codice puoi tornare un altro giorno.

@@ -40,9 +40,9 @@ PageFrame {
         const wide = (column - 2.5 * size - Theme.gap) * exact
         const tall = read.reduce((sum, line) => sum + Math.max(2.5 * size, lines(line.text, size, wide) * 1.09 * Math.ceil(1.37 * size)), 0)
         const beside = (column - 290 * Theme.unit - 2.5 * Theme.gap) * 0.95
-        const noted = [debrief.withdrawing, debrief.returning, debrief.questions].reduce((sum, text) => sum + lines(text, cardSize, beside), 0)
+        const noted = [debrief.scanning, words["debrief-code"], debrief.withdrawing, debrief.returning, debrief.questions].reduce((sum, text) => sum + lines(text, cardSize, beside), 0)
         const heading = lines(kept, 1.08 * Theme.body, beside)
-        const card = heading * Math.ceil(1.37 * Theme.body) + 1.38 * Theme.figure + noted * Math.ceil(1.37 * cardSize) + 2.6 * Theme.gap
+        const card = heading * Math.ceil(1.37 * Theme.body) + 1.38 * Theme.size(72) + noted * Math.ceil(1.37 * cardSize) + 2.6 * Theme.gap
         return tall + (read.length + 1) * apart * Theme.gap + Math.max((width < height ? 326 : 266) * Theme.unit, card)
     }
     // What is added to that where an upright page has room for it.
@@ -141,7 +141,7 @@ PageFrame {
                         right: parent.right; rightMargin: Theme.gap
                         verticalCenter: parent.verticalCenter
                     }
-                    spacing: 0.3 * Theme.gap
+                    spacing: (view.signed ? 0.2 : 0.3) * Theme.gap
                     PlainText {
                         width: parent.width
                         text: view.kept
@@ -149,29 +149,41 @@ PageFrame {
                         horizontalAlignment: Text.AlignLeft
                         wrapMode: Text.Wrap
                     }
+                    Balanced {
+                        objectName: "scanning"
+                        width: parent.width
+                        visible: text !== "" && view.signed
+                        text: view.debrief.scanning
+                        horizontalAlignment: Text.AlignLeft
+                        font.pixelSize: view.noted
+                        color: Theme.ink
+                    }
+                    // The code stands below its name, or beside it where the page has little height.
                     Item {
                         width: parent.width
-                        height: Math.max(called.height, code.height)
+                        height: view.signed ? code.y + code.height : Math.max(called.height, code.height)
                         visible: view.debrief.code !== ""
                         PlainText {
                             id: called
                             x: Theme.across(0, width, parent.width)
-                            y: (parent.height - height) / 2
-                            width: Math.min(implicitWidth, 0.45 * parent.width)
+                            y: view.signed ? 0.35 * Theme.gap : (parent.height - height) / 2
+                            width: (view.signed ? 1 : 0.45) * parent.width
                             text: view.words["debrief-code"]
-                            font.pixelSize: Theme.small
+                            font { pixelSize: view.noted; bold: true }
                             horizontalAlignment: Text.AlignLeft
                             wrapMode: Text.Wrap
-                            color: Theme.faintInk
+                            color: Theme.ink
                         }
                         PlainText {
                             id: code
+                            readonly property real from: view.signed ? 0 : called.contentWidth + Theme.gap
                             objectName: "code"
-                            x: Theme.across(called.width + Theme.gap, width, parent.width)
-                            width: parent.width - called.width - Theme.gap
+                            x: Theme.across(from, width, parent.width)
+                            y: view.signed ? called.y + called.height : 0
+                            width: parent.width - from
                             text: view.debrief.code
                             horizontalAlignment: Text.AlignLeft
-                            font { pixelSize: Theme.figure; bold: true; letterSpacing: 4 * Theme.unit }
+                            font { pixelSize: Theme.size(view.signed ? 72 : 64); bold: true; letterSpacing: 4 * Theme.unit }
                             fontSizeMode: Text.HorizontalFit
                             minimumPixelSize: Theme.body
                             color: Theme.sea

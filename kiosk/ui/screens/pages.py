@@ -258,6 +258,15 @@ class DebriefScreen(PageScreen):
         return self._catalogue.text("debrief-withdraw-by-mail", contact=self._contact)
 
     @Property(str, notify=given)
+    def scanning(self) -> str:
+        """Return what a telephone finds in the QR code, in words."""
+        if not self._code:
+            return ""
+        if self.payload.startswith("mailto:"):
+            return self._catalogue.text("debrief-scan-letter")
+        return self._catalogue.text("debrief-scan-summary" if self._summary else "debrief-scan")
+
+    @Property(str, notify=given)
     def returning(self) -> str:
         """Return that the visitor can come back with the code; empty if they cannot."""
         return self._catalogue.text("debrief-return") if self._code and self._returns else ""

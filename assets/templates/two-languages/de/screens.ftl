@@ -155,6 +155,9 @@ keyboard-signs = Zeichen
 
 debrief-take-home = Zum Mitnehmen: Fotografiere diese Karte
 debrief-code = Dein Code
+debrief-scan-letter = Scannen: eine Nachricht an uns mit deinem Code, zum Absenden
+debrief-scan-summary = Scannen: dein Code und was wir untersuchen
+debrief-scan = Scannen: dein Code
 debrief-withdraw-by-mail = Um deine Daten löschen zu lassen, sende diesen Code an { $contact }
 debrief-withdraw-here = Um deine Daten löschen zu lassen, nenne diesen Code den Leuten an diesem Tisch.
 debrief-return = Mit diesem Code kannst du an einem anderen Tag wiederkommen.
