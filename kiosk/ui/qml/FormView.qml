@@ -106,7 +106,7 @@ PageFrame {
         font.pixelSize: 100
     }
     function pairs(size: real): bool {
-        const wide = (column - 2.4 * Theme.gap - 12 * Theme.unit) / 2 - 86 * Theme.unit
+        const wide = (column - 2.4 * Theme.gap - 18 * Theme.unit) / 2 - 86 * Theme.unit
         return form.items.every(item => item.kind === "integer"
             || item.kind === "single" && item.options.every(option => thin.advanceWidth(option.text) * size / 100 <= wide))
     }
@@ -115,29 +115,19 @@ PageFrame {
         for (const item of form.items) {
             const lines = Math.ceil(letters.advanceWidth(item.text) * Theme.body / 100 / (column - 2.4 * Theme.gap))
             const rows = Math.ceil((item.options?.length ?? 0) / 2)
-            tall += form.hidden.includes(item.id) ? 0 : item.kind === "integer" ? 124 * Theme.unit
+            tall += form.hidden.includes(item.id) ? 0 : item.kind === "integer" ? 132 * Theme.unit
                 : lines * 1.37 * Theme.body + (48 + 88 * rows) * Theme.unit
         }
         return tall
     }
 
-    // Whether a number stands beside its text: an upright screen's cards are broad enough for both.
+    // Whether a number stands beside its text: an upright screen's cards are broad enough for both, and so are those of a short wide page.
     function inline(item: var): bool {
-        return (upright || paired > 0) && !alone && Theme.textSize <= 1.15 && item.kind === "integer" && !item.exempts
+        return (upright || calm && !mirrored) && !alone && Theme.textSize <= 1.15 && item.kind === "integer" && !item.exempts
             && letters.advanceWidth(item.text) * Theme.size(38) / 100 + 470 * Theme.unit <= column - 2.4 * Theme.gap
     }
-    // Whether they stand beside the number in its card, on a wide screen whose helper stands beside the page.
     readonly property bool upright: width < height
-    readonly property bool strip: {
-        const field = keyboard.field
-        if (!accompanied || alone || field === null || !field.digits || field.minus || mirrored)
-            return false
-        const box = card(field)
-        return box !== null && box.height >= stripHeight && box.width - box.taken - 1.6 * Theme.gap >= stripWidth
-    }
     readonly property bool mirrored: Theme.mirrored
-    readonly property real stripWidth: 535 * Theme.unit
-    readonly property real stripHeight: 197 * Theme.unit
     // Whether a few ratings share an upright page with a line to be touched: their texts have two lines each.
     readonly property bool mixed: upright && !alone && Theme.textSize <= 1.15 && form.items.length < 5 && form.items.some(item => scales(item))
         && form.items.some(item => item.kind === "slider") && form.items.every(item => scales(item) || item.kind === "slider")
@@ -149,18 +139,8 @@ PageFrame {
                 most = Math.max(most, (boxes.itemAt(i) as FormItem)?.lines ?? 1)
         return most
     }
-    // The item that a field belongs to.
-    function card(field: Item): FormItem {
-        for (let i = 0; i < boxes.count; i++) {
-            const box = boxes.itemAt(i) as FormItem
-            for (let above = field; above; above = above.parent)
-                if (above === box)
-                    return box
-        }
-        return null
-    }
-    // Whether they stand in the helper's place.
-    readonly property bool keysBeside: keyboard.visible && keyboard.numbers && !strip
+    // Whether the keys of a number stand in the helper's place.
+    readonly property bool keysBeside: keyboard.visible && keyboard.numbers
 
     // Whether the keys of a number stand below this page, where the helper is on an upright screen.
     readonly property bool keysBelow: keyboard.visible && keyboard.numbers && keyboard.y >= height
@@ -233,11 +213,6 @@ PageFrame {
     // Where the keys of a number stand: in the helper's place, in the margin, or below everything; they cover no answer
     // unless there is no such place.
     function padPlace(wide: real, tall: real): point {
-        if (strip) {
-            const box = card(keyboard.field)
-            return Qt.point(home.mapToItem(view, 0, 0).x + box.width - 0.6 * Theme.gap - wide,
-                            begin + home.y + box.mapToItem(home, 0, 0).y + (box.height - tall) / 2)
-        }
         const before = parent.x, after = Window.width - before - width
         const beside = keyboard.field === null ? 0
             : Math.max(0, Math.min(height - tall, foot - tall - Theme.gap, begin + home.y + keyboard.field.mapToItem(home, 0, keyboard.field.height / 2).y - tall / 2))
@@ -365,8 +340,6 @@ PageFrame {
                     headed: !view.repeats(index)
                     leastLines: view.mostLines
                     inline: view.inline(modelData)
-                    // The keys of a number come into its card and move nothing.
-                    least: view.calm && view.paired === 0 && modelData.kind === "integer" && Theme.screenKeys !== "never" ? view.stripHeight + 24 * Theme.unit : 0
                     onEntered: field => keyboard.field = field
                 }
             }
@@ -377,7 +350,6 @@ PageFrame {
         parent: view
         form: view.form
         place: view.padPlace(width, height)
-        strip: view.strip
         words: view.words
         onDone: view.way.button.forceActiveFocus(Qt.MouseFocusReason)
     }

@@ -27,7 +27,7 @@ Flow {
     // Where there is room for it, all are as wide, in rows that are as full; one below the other only on an upright screen.
     readonly property bool tiled: !stacked && !dense && (columns > 1 || width < 1020 * Theme.unit)
     // How far apart they are in columns, and in rows that are filled.
-    readonly property real packed: !dense && !alone && width >= 1020 * Theme.unit ? 8 * Theme.unit : 0.5 * Theme.gap
+    readonly property real packed: !dense && !alone && width >= 1020 * Theme.unit ? 8 * Theme.unit : large ? 18 * Theme.unit : 0.5 * Theme.gap
     readonly property real apart: 0.67 * Theme.gap
     readonly property real widest: {
         let most = 0
@@ -68,7 +68,7 @@ Flow {
     }
     // The same in columns that all lists of the page share: each as many of them as its words need, and the last ones of
     // a row what is left. So what stands in two rows, or in two lists, begins at the same places.
-    readonly property real gridGap: 12 * Theme.unit
+    property real gridGap: 12 * Theme.unit
     readonly property var gridded: {
         if (paired > 0)
             return options.map((_, index) => index === options.length - 1 && index % 2 === 0 ? Math.floor(width) : Math.floor((width - gridGap) / 2))

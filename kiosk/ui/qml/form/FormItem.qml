@@ -34,8 +34,6 @@ Item {
     readonly property alias lines: question.lineCount
     // Whether a number stands beside its text, at the end of the card.
     property bool inline: false
-    // How high it is at least, as for keys that come into it.
-    property real least: 0
     // How large its text is then.
     property real rowText: Theme.body
     // How much of the row is its text's.
@@ -54,10 +52,8 @@ Item {
     // How much of what can be added to the distances of this page is added, from 0 to 1.
     property real loosened: 0
     // How high it is without that, and how much can be added.
-    readonly property real plain: Math.max(least, head + (inline ? Math.max(told.height, way.height) : told.height + lacking + (way.active ? usualSpacing + way.height : 0)) + 2 * usualMargin)
+    readonly property real plain: head + (inline ? Math.max(told.height, way.height) : told.height + lacking + (way.active ? usualSpacing + way.height : 0)) + 2 * usualMargin
     readonly property real addable: alone || beside ? 0 : 32 * Theme.unit
-    // Where its text and a number beside each other end, from the left.
-    readonly property real taken: Math.max(question.contentWidth, (way.item as NumberField)?.width ?? 0) + 1.2 * Theme.gap
     readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : airy ? lined ? 26 : 22 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
     readonly property real usualMargin: alone ? 0 : own ? rowMargin : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
@@ -107,7 +103,7 @@ Item {
 
     // The cards of a page are as high, with their scales at one place, and a shorter text in the middle of its room.
     readonly property real lacking: beside ? 0 : Math.max(0, leastLines - question.lineCount) * question.implicitHeight / Math.max(1, question.lineCount)
-    height: Math.max(least, head + content.height + 2 * margin)
+    height: head + content.height + 2 * margin
 
     Rectangle {
         anchors { fill: parent; topMargin: box.head }
@@ -136,7 +132,7 @@ Item {
                 x: Theme.across(0, width, asked.width)
                 y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.lacking / 2
                 width: box.beside ? box.textShare * asked.width : box.inline ? asked.width - 470 * Theme.unit : asked.width
-                spacing: content.spacing
+                spacing: box.inline ? 0 : content.spacing
                 Balanced {
                     id: question
                     width: parent.width
@@ -150,6 +146,16 @@ Item {
                     lineHeight: box.item.kind === "page" ? 1.15 : 1
                     horizontalAlignment: Text.AlignLeft
                 }
+                // What a number may be, below the question where the number stands beside that.
+                PlainText {
+                    width: parent.width
+                    visible: box.inline && text !== ""
+                    text: box.item.range ?? ""
+                    horizontalAlignment: Text.AlignLeft
+                    font.pixelSize: Theme.small
+                    wrapMode: Text.Wrap
+                    color: Theme.faintInk
+                }
                 PlainText {
                     width: parent.width
                     visible: box.missed
@@ -160,17 +166,6 @@ Item {
                     wrapMode: Text.Wrap
                     color: Theme.deepAmber
                 }
-            }
-            // What a number may be, beside it as soon as something is typed, where there is room for that.
-            PlainText {
-                readonly property real room: way.x - told.x - question.contentWidth - 2 * Theme.gap
-                visible: box.inline && !Theme.mirrored && implicitWidth <= room
-                opacity: ((way.item as NumberField)?.text ?? "") !== "" ? 1 : 0
-                x: way.x - implicitWidth - Theme.gap
-                y: (asked.height - height) / 2
-                text: box.item.range ?? ""
-                font.pixelSize: Theme.small
-                color: Theme.faintInk
             }
             Loader {
                 id: way
@@ -303,6 +298,7 @@ Item {
             dense: box.form.items.length > 3
             large: box.airy
             paired: box.paired
+            gridGap: (box.paired > 0 ? 14 : box.calm ? 18 : 12) * Theme.unit
             tall: (box.tight || (Theme.textSize > 1.15 && !box.large) || box.form.items.length > 3 ? 62 : box.airy ? 84 : 76) * Theme.unit
             onPicked: option => several ? box.form.toggle(box.item.id, option) : box.form.choose(box.item.id, option)
         }
@@ -311,7 +307,7 @@ Item {
         id: number
         NumberField {
             room: content.width
-            crowded: box.inline
+            inline: box.inline
             item: box.item.id
             form: box.form
             label: box.item.text

@@ -18,10 +18,8 @@ Row {
     required property string pattern    // what may stand in the field
     required property string less
     required property string more
-    // Whether there is no room for what it takes beside it, as while keys stand there.
-    property bool crowded: false
-    // How wide it is without that.
-    readonly property real core: 2 * field.height + field.width + 2 * spacing
+    // Whether it stands beside its question, which then says what it may be.
+    property bool inline: false
     property alias text: field.text
     signal typed(string text)
     signal done()
@@ -31,7 +29,7 @@ Row {
         field.text = form.step(item, field.text, by)
     }
 
-    spacing: 0.6 * Theme.gap
+    spacing: 20 * Theme.unit
 
     FontMetrics {
         id: metrics
@@ -93,15 +91,14 @@ Row {
         objectName: `number-${number.item}`
         focus: true
         label: `${number.label} ${number.range}`
-        // What there may be invites to type it; it stands beside the field as soon as something is typed.
-        hint: number.range
+        // A place for a number, and none that could be taken for an answer.
+        hint: "–"
         Accessible.description: ""
         digits: true
         form: number.form
         minus: number.minus
         // As wide as the longest number; digits of another script may be wider still.
-        width: Math.max(170 * Theme.unit * Theme.textSize, Math.min(asked.implicitWidth + leftPadding + rightPadding, 0.4 * number.room),
-                        Math.max(metrics.advanceWidth(number.widest), contentWidth) + leftPadding + rightPadding + 8 * Theme.unit)
+        width: Math.max(190 * Theme.unit * Theme.textSize, Math.max(metrics.advanceWidth(number.widest), contentWidth) + leftPadding + rightPadding + 8 * Theme.unit)
         height: 1.37 * Theme.body + 32 * Theme.unit
         topPadding: 2 * Theme.unit
         bottomPadding: 2 * Theme.unit
@@ -125,8 +122,7 @@ Row {
     }
     PlainText {
         id: asked
-        visible: !number.crowded
-        opacity: field.length > 0 ? 1 : 0
+        visible: !number.inline
         anchors.verticalCenter: parent.verticalCenter
         leftPadding: 0.5 * Theme.gap
         width: Math.min(implicitWidth, number.room - 2 * field.height - field.width - 3 * number.spacing)

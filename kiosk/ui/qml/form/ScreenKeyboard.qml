@@ -14,8 +14,6 @@ Rectangle {
     required property var words
     // Where a number's keys stand.
     required property point place
-    // Whether they stand in two rows, beside the number and in its card.
-    property bool strip: false
     signal done()
 
     // A keyboard is not turned round with the page.
@@ -25,8 +23,8 @@ Rectangle {
     property bool capitals: false
     property string shown: "letters"
     readonly property bool numbers: field !== null && field.digits
-    // Whether a number's keys stand in two rows: in its card, or across an upright screen's width.
-    readonly property bool flat: numbers && (strip || broad && !field?.minus)
+    // Whether a number's keys stand in two rows, across an upright screen's width.
+    readonly property bool flat: numbers && broad && !field?.minus
     readonly property var rows: flat ? ["12345", "67890"] : numbers ? ["123", "456", "789", `${field?.minus ? "-" : " "}0⌫`] : form.keys[shown]
     readonly property int longest: Math.max(10, ...rows.map(row => row.length))
     readonly property real gap: 8 * Theme.unit
@@ -35,14 +33,14 @@ Rectangle {
     readonly property bool broad: parent.width < parent.height && Window.height - parent.height > 400 * Theme.unit
     // Or a wide screen's margin beside it.
     readonly property bool roomy: Window.width - parent.width >= 440 * Theme.unit
-    readonly property real keyWidth: numbers ? (strip ? 70 : flat ? 118 : broad ? 150 : roomy ? 108 : 80) * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
-    readonly property real keyHeight: (numbers ? (strip ? 80 : flat ? 104 : roomy ? 80 : 68) : 60) * Theme.unit
+    readonly property real keyWidth: numbers ? (flat ? 118 : broad ? 150 : roomy ? 108 : 80) * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
+    readonly property real keyHeight: (numbers ? (flat ? 104 : roomy ? 80 : 68) : 60) * Theme.unit
 
     width: numbers ? keys.width + 1.2 * Theme.gap : parent.width
     height: keys.height + 1.2 * Theme.gap
     x: numbers ? place.x : 0
     y: numbers ? place.y : parent.height - height
-    radius: numbers ? (strip ? 1.4 * Theme.radius : flat ? height / 6 : 1.6 * Theme.radius) : 0
+    radius: numbers ? flat ? height / 6 : 1.6 * Theme.radius : 0
     color: Theme.sand
     visible: field !== null
     onFieldChanged: {
@@ -71,7 +69,7 @@ Rectangle {
         contentItem: Text {
             textFormat: Text.PlainText
             text: key.drawn ? "" : key.words
-            font { pixelSize: Math.min(keyboard.strip && key.words.length > 1 ? Theme.size(28) : keyboard.flat && !keyboard.strip ? Theme.size(42) : Theme.body, 0.56 * keyboard.keyHeight); bold: key.pressedIn }
+            font { pixelSize: Math.min(keyboard.flat ? Theme.size(42) : Theme.body, 0.56 * keyboard.keyHeight); bold: key.pressedIn }
             color: key.pressedIn ? Theme.white : Theme.ink
             horizontalAlignment: Text.AlignHCenter
             verticalAlignment: Text.AlignVCenter
@@ -83,7 +81,7 @@ Rectangle {
             Backspace {
                 visible: key.drawn
                 anchors.centerIn: parent
-                scale: (keyboard.flat && !keyboard.strip ? 2.4 : keyboard.numbers ? 1.8 : 1.5) * Theme.unit
+                scale: (keyboard.flat ? 2.4 : keyboard.numbers ? 1.8 : 1.5) * Theme.unit
             }
         }
     }
@@ -139,7 +137,7 @@ Rectangle {
         }
         Flow {
             id: others
-            readonly property real wish: keyboard.flat ? (keyboard.strip ? 116 : 190) * Theme.unit : keyboard.numbers ? 3 * keyboard.keyWidth + 2 * keyboard.gap : keyboard.room - 2 * Theme.gap
+            readonly property real wish: keyboard.flat ? 190 * Theme.unit : keyboard.numbers ? 3 * keyboard.keyWidth + 2 * keyboard.gap : keyboard.room - 2 * Theme.gap
             width: keyboard.numbers ? wish : Math.min(wish, implicitRow)
             readonly property real implicitRow: {
                 let sum = -spacing

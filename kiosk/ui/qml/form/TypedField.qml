@@ -79,11 +79,13 @@ TextField {
         textFormat: Text.PlainText
         text: field.hint
         horizontalAlignment: field.digits ? Text.AlignHCenter : undefined
-        font.pixelSize: Theme.body
+        font.pixelSize: field.digits ? field.font.pixelSize : Theme.body
         fontSizeMode: Text.HorizontalFit
         minimumPixelSize: Theme.size(24)
         color: Theme.faintInk
         verticalAlignment: Text.AlignVCenter
+        // A dash stands lower than digits.
+        bottomPadding: field.digits ? 0.16 * font.pixelSize : 0
         Accessible.ignored: true
     }
     background: Rectangle {
