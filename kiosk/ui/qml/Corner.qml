@@ -15,31 +15,42 @@ Item {
     // How many stand in a row; 1 for a column, whose first is the lowest.
     required property int places
 
-    readonly property real spacing: 10 * Theme.unit
-    readonly property real step: 64 * Theme.unit + spacing
+    readonly property real spacing: 12 * Theme.unit
+    readonly property real step: 68 * Theme.unit + spacing
+    // How much further from the others the one stands that ends everything.
+    readonly property real apart: kiosk.inSession ? 12 * Theme.unit : 0
     readonly property bool translated: kiosk.inSession && kiosk.languages.length > 1
     readonly property list<bool> shown: [kiosk.inSession, translated, true, kiosk.audible, canRepeat]
     readonly property int count: before(shown.length)
     // Its size with the sentence to be heard again, whether or not there is one now: nothing moves when that comes.
     readonly property int slots: before(shown.length - 1) + 1
-    readonly property real fullWidth: Math.min(slots, places) * step - spacing
-    readonly property real fullHeight: Math.ceil(slots / places) * step - spacing
+    readonly property real fullWidth: long(slots) + (places > 1 ? apart : 0)
+    readonly property real fullHeight: high(slots) + (places > 1 ? 0 : apart)
 
     // How many are seen before this one.
     function before(at: int): int {
         return shown.filter((seen, i) => seen && i < at).length
     }
 
-    width: Math.min(count, places) * step - spacing
-    height: Math.ceil(count / places) * step - spacing
+    // How much room so many need, but for the gap after the first.
+    function long(many: int): real {
+        return Math.min(many, places) * step - spacing
+    }
+    function high(many: int): real {
+        return Math.ceil(many / places) * step - spacing
+    }
+
+    width: long(count) + (places > 1 ? apart : 0)
+    height: high(count) + (places > 1 ? 0 : apart)
     enabled: kiosk.bare && kiosk.takesInput
 
     component Control: CornerButton {
         required property int at
         readonly property int nth: corner.before(at)
         visible: corner.shown[at]
-        x: corner.width - nth % corner.places * corner.step - width
-        y: corner.places === 1 ? corner.height - nth * corner.step - height : Math.floor(nth / corner.places) * corner.step
+        readonly property real past: at > 0 ? corner.apart : 0
+        x: corner.width - nth % corner.places * corner.step - width - (corner.places > 1 && nth < corner.places ? past : 0)
+        y: corner.places === 1 ? corner.height - nth * corner.step - height - past : Math.floor(nth / corner.places) * corner.step
     }
 
     Control {

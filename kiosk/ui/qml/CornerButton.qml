@@ -10,7 +10,7 @@ AbstractButton {
     // The lines of the drawing, on a square of 24.
     required property string drawing
 
-    width: 64 * Theme.unit
+    width: 68 * Theme.unit
     height: width
     focusPolicy: Qt.StrongFocus
     scale: down ? 0.92 : 1
@@ -23,7 +23,7 @@ AbstractButton {
     contentItem: Item {
         Drawing {
             anchors.centerIn: parent
-            scale: 1.5 * Theme.unit
+            scale: button.width / 43
             path: button.drawing
             ink: Theme.sea
         }

@@ -128,7 +128,7 @@ Window {
               : root.high ? (boardView.visible ? Math.min(free, boardView.wish) : free)
               : unwatched ? root.room - corner.height - Theme.gap : root.room * upright
         // Board and assistant stand close together: the board takes what its cards need, at least half of the screen.
-        readonly property real upright: !root.speaks ? (root.texts > 1.15 && root.kiosk.screen !== "form" ? 0.86 : 0.78)
+        readonly property real upright: !root.speaks ? (root.texts > 1.15 && root.kiosk.screen !== "form" ? 0.84 : 0.78)
               : attractView.visible ? (root.texts > 1.3 ? 0.76 : Math.max(0.57, 0.57 + 0.25 * (root.texts - 1)))
               : !boardView.visible ? 0.64
               // The helper keeps its size from the practice to the game.
