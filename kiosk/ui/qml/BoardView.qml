@@ -318,6 +318,8 @@ FocusScope {
         model: view.board
         Accessible.role: Accessible.Table
         Accessible.name: view.board.progress
+        // Without cards there is nothing to tell.
+        Accessible.ignored: view.pairs === 0
         // A key that is held down is one tap.
         Keys.onReturnPressed: event => { if (!event.isAutoRepeat) tapCurrent() }
         Keys.onEnterPressed: event => { if (!event.isAutoRepeat) tapCurrent() }
