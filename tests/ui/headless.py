@@ -37,6 +37,13 @@ def short(**sections: object) -> Settings:
     return Settings.model_validate({"stages": SHORT, "questionnaires": ["trust"], **sections})
 
 
+BRIEF = short(game={"rows": 3, "columns": 4})
+"""The same with half the cards, for tests that play sessions of which hints matter: they take half as long."""
+
+TINY = short(game={"rows": 2, "columns": 3})
+"""The same with a quarter of the cards, for tests in which a session only has to come to its end."""
+
+
 @contextmanager
 def headless(  # noqa: PLR0913 - all that a kiosk can differ in
     settings: Settings,

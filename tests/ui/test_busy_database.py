@@ -30,7 +30,7 @@ from kiosk.ui.session_runner import LONGEST_MS, TOLD_AFTER_MS
 from kiosk.ui.simulated_visitor import lay_out
 from kiosk.ui.window import RunMode, WindowMode
 from tests.ui.conftest import Booth, MakeBooth
-from tests.ui.headless import headless, short
+from tests.ui.headless import BRIEF, HALF, headless, short
 
 GALLERY = Questionnaire.read(ASSETS / "questionnaires" / "gallery.toml")
 HELD_MS = 30_000
@@ -42,6 +42,18 @@ print("held", flush=True)
 sys.stdin.read()
 held.execute("ROLLBACK")
 """
+
+
+@pytest.fixture
+def run_mode() -> RunMode:
+    """Return a mode in which sessions are drawn faster: nothing here is about how they look."""
+    return HALF
+
+
+@pytest.fixture
+def booth(make_booth: MakeBooth) -> Booth:
+    """Return a booth with half the cards."""
+    return make_booth(settings=BRIEF)
 
 
 class Other:
@@ -115,10 +127,10 @@ def test_a_database_that_is_held_for_half_a_minute_costs_no_session_and_shows_no
     tapped_at = booth.app.clock.now_ms()
     booth.click("card-3")
     assert wait_ms(booth, HELD_MS, draws=True) > 100
-    assert len(booth.app.screens.board.closed) == 24
+    assert len(booth.app.screens.board.closed) == 12
     assert flips(booth) == []
     other.let_go()
-    booth.wait_until(lambda: len(booth.app.screens.board.closed) == 23)
+    booth.wait_until(lambda: len(booth.app.screens.board.closed) == 11)
     [flip] = flips(booth)
     assert flip.position == Position(0, 3)
     assert flip.at_ms <= tapped_at
@@ -131,13 +143,13 @@ def test_what_is_tapped_meanwhile_counts_in_its_order_and_with_its_time(booth: B
     booth.start_game()
     booth.settle()
     other.hold()
-    for column in (3, 4):
-        booth.click(f"card-{column}")
+    for card in (3, 4):
+        booth.click(f"card-{card}")
         wait_ms(booth, 200)
     other.let_go()
-    booth.wait_until(lambda: len(booth.app.screens.board.closed) <= 22)
+    booth.wait_until(lambda: len(booth.app.screens.board.closed) <= 10)
     first, second = flips(booth)
-    assert (first.position, second.position) == (Position(0, 3), Position(0, 4))
+    assert (first.position, second.position) == (Position(0, 3), Position(1, 0))
     assert second.at_ms - first.at_ms == 200
 
 
@@ -156,7 +168,7 @@ def test_a_visitor_who_has_to_wait_long_is_asked_for_a_moment_and_then_goes_on(b
     booth.wait_until(lambda: booth.screen == "game")
     assert not booth.sees("wait")
     booth.click("card-3")
-    assert len(booth.app.screens.board.closed) == 23
+    assert len(booth.app.screens.board.closed) == 11
 
 
 def go_to(booth: Booth, screen: str) -> None:
@@ -176,7 +188,7 @@ def go_to(booth: Booth, screen: str) -> None:
 def test_a_tap_that_was_meant_for_the_page_before_skips_no_page(
     make_booth: MakeBooth, other_of: Callable[[Booth], Other]
 ) -> None:
-    booth = make_booth(settings=short(questionnaires=["gallery"]))
+    booth = make_booth(settings=short(questionnaires=["gallery"], game={"rows": 2, "columns": 3}))
     other = other_of(booth)
     go_to(booth, "result")
     other.hold()
@@ -273,7 +285,7 @@ def test_a_fault_meanwhile_shows_the_calm_screen_and_leaves_nothing_for_the_next
 def test_a_timer_that_ran_out_while_the_tap_that_stops_it_was_waiting_does_not_count(
     make_booth: MakeBooth, other_of: Callable[[Booth], Other]
 ) -> None:
-    booth = make_booth(settings=short(idle_ms={"game": 3_000, "still_there": 1_000}))
+    booth = make_booth(settings=short(idle_ms={"game": 3_000, "still_there": 1_000}, game={"rows": 3, "columns": 4}))
     other = other_of(booth)
     booth.start_game()
     booth.settle()
@@ -282,7 +294,7 @@ def test_a_timer_that_ran_out_while_the_tap_that_stops_it_was_waiting_does_not_c
     booth.click("card-3")
     wait_ms(booth, 2_500)
     other.let_go()
-    booth.wait_until(lambda: len(booth.app.screens.board.closed) == 23)
+    booth.wait_until(lambda: len(booth.app.screens.board.closed) == 11)
     assert not booth.sees("still-there")
     assert not any(isinstance(event, happened.TimerExpired) for event in events(booth))
 
@@ -301,7 +313,7 @@ def test_options_that_are_ticked_before_the_first_is_stored_are_all_kept(booth: 
 def test_a_rehearsal_on_virtual_time_stands_still_meanwhile_so_that_its_record_is_the_same(
     make_booth: MakeBooth, other_of: Callable[[Booth], Other]
 ) -> None:
-    plain, disturbed = (make_booth(opened=partial(Recorder, wait_ms=10)) for _ in range(2))
+    plain, disturbed = (make_booth(settings=BRIEF, opened=partial(Recorder, wait_ms=10)) for _ in range(2))
     plain.rehearse(seed=1)
     other, held = other_of(disturbed), list[WorldEvent]()
     rehearsal = Rehearsal(disturbed.app, 1)

@@ -173,12 +173,22 @@ def longest_hint(catalogue: Catalogue) -> str:
 
 def texts(item: QQuickItem) -> Iterator[QQuickItem]:
     """Every visible text below an item."""
+    yield from (found for found, _ in read(item) if found.inherits("QQuickText"))
+
+
+def read(item: QQuickItem, pane: QQuickItem | None = None) -> Iterator[tuple[QQuickItem, QQuickItem | None]]:
+    """Every visible text and button below an item, each with the pane that it scrolls in, if it does."""
     if not item.isVisible() or item.opacity() == 0:
         return
-    if item.inherits("QQuickText") and item.property("text"):
-        yield item
+    if item.inherits("QQuickText"):
+        if item.property("text"):
+            yield item, pane
+    elif item.inherits("QQuickAbstractButton"):
+        yield item, pane
+    elif item.inherits("QQuickFlickable") and item.property("interactive"):
+        pane = item
     for child in item.childItems():
-        yield from texts(child)
+        yield from read(child, pane)
 
 
 def painted(text: QQuickItem) -> QRectF:
@@ -188,22 +198,9 @@ def painted(text: QQuickItem) -> QRectF:
     return QRectF(place.center().x() - width / 2, place.center().y() - height / 2, width, height)
 
 
-def scrolls(text: QQuickItem) -> QRectF | None:
-    """Return the part of the window that a text scrolls in; None if it stands still."""
-    above: QQuickItem | None = text.parentItem()
-    while above and not (above.inherits("QQuickFlickable") and above.property("interactive")):
-        above = above.parentItem()
-    return above.mapRectToScene(QRectF(0, 0, above.width(), above.height())) if above else None
-
-
 def controls(item: QQuickItem) -> Iterator[QQuickItem]:
     """Every visible button below an item."""
-    if not item.isVisible() or item.opacity() == 0:
-        return
-    if item.inherits("QQuickAbstractButton"):
-        yield item
-    for child in item.childItems():
-        yield from controls(child)
+    yield from (found for found, _ in read(item) if not found.inherits("QQuickText"))
 
 
 def belongs(item: QQuickItem, control: QQuickItem) -> bool:
@@ -272,7 +269,8 @@ def crossings(parts: Sequence[Part]) -> Iterator[tuple[Part, Part]]:
 def assert_all_can_be_read(shown: QQuickWindow, moment: str) -> None:
     """No text of the window is cut off, reaches out of the window, or lies on another one or under a button."""
     inside = QRectF(0, 0, shown.width(), shown.height()).adjusted(*(-HALF_A_PIXEL,) * 2, *(HALF_A_PIXEL,) * 2)
-    written = [Part(text, painted(text), scrolls(text)) for text in texts(shown.contentItem())]
+    every = [(item, whole(pane) if pane is not None else None) for item, pane in read(shown.contentItem())]
+    written = [Part(item, painted(item), pane) for item, pane in every if item.inherits("QQuickText")]
     assert written, moment
     for part in written:
         assert not part.item.property("truncated"), (moment, part.told)
@@ -281,7 +279,9 @@ def assert_all_can_be_read(shown: QQuickWindow, moment: str) -> None:
         else:
             assert inside.left() <= part.place.left() < part.place.right() <= inside.right(), (moment, part.told)
             assert inside.contains(part.pane), (moment, part.told)
-    buttons = [Part(item, whole(item).adjusted(1, 1, -1, -1), scrolls(item)) for item in controls(shown.contentItem())]
+    buttons = [
+        Part(item, whole(item).adjusted(1, 1, -1, -1), pane) for item, pane in every if not item.inherits("QQuickText")
+    ]
     for one, other in crossings([*written, *buttons]):
         apart = not belongs(one.item, other.item) and not belongs(other.item, one.item)
         assert not apart, (moment, one.told, other.told)
@@ -311,9 +311,10 @@ def moments(screens: ScreenSet, study: StudyConfig) -> Iterator[tuple[str, str, 
         if not any(isinstance(item, TextPage) for item in items):
             names = tuple(item.id for item in items)
             yield f"{name}, missing", "form", partial(screens.form.show_missing, names)
+    # In the order of a session: a code is drawn when it is given.
     screens.debrief.give_contact("memory-study@psychology.university.test")
-    screens.debrief.give_code("WWWWWWW")
     screens.debrief.give_summary(sheet.about.paragraphs[0])
+    screens.debrief.give_code("WWWWWWW")
     yield "debrief", "debrief", lambda: screens.debrief.show(sheet.debrief)
     yield "thanks", "thanks", lambda: None
 
@@ -348,6 +349,8 @@ def test_every_screen_fits_in_every_language_layout_and_text_size(
         QCoreApplication.processEvents()
     for plan in study.plans:
         screens.kiosk.show("attract")
+        # The code of the language before would be drawn in this one.
+        screens.debrief.clear()
         screens.set_language(plan.catalogue)
         screens.kiosk.begin(SHIPPED, plan.language, plan.settings.consent)
         screens.kiosk.offer_back(offered=True)

@@ -8,7 +8,6 @@ import pytest
 from PySide6.QtCore import Qt
 
 from kiosk import StorageError
-from kiosk.config import Settings
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import Event
 from kiosk.experiment.outcomes import Status
@@ -18,7 +17,7 @@ from kiosk.store.recorder import Provenance, Recorder
 from kiosk.ui.session_runner import ERROR_SCREEN_MS
 from kiosk.ui.window import RunMode
 from tests.ui.conftest import Booth, MakeBooth
-from tests.ui.headless import HALF, short
+from tests.ui.headless import BRIEF, HALF, SMALL, TINY, short
 
 QUICK = short(idle_ms={"game": 3_000, "still_there": 1_000})
 
@@ -53,8 +52,9 @@ def test_a_tap_that_cannot_be_recorded_is_not_shown(
 
 
 def test_after_a_failure_of_the_disk_the_kiosk_goes_on_by_itself(
-    booth: Booth, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+    make_booth: MakeBooth, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
+    booth = make_booth(settings=TINY)
     booth.click("start-en")
     with monkeypatch.context() as patch:
         patch.setattr(Recorder, "append", refuse)
@@ -78,7 +78,7 @@ def test_a_fault_of_ours_shows_a_calm_screen_and_goes_into_the_log(
 
 
 def test_markers_name_every_event_that_is_stored_and_none_before_consent(make_booth: MakeBooth) -> None:
-    booth = make_booth(settings=Settings())
+    booth = make_booth(settings=SMALL)
     sent: list[Event] = []
     participants = set[str]()
 
@@ -161,14 +161,15 @@ def test_a_word_from_the_last_session_changes_nothing_in_the_next(booth: Booth) 
         assert isinstance(stored.events(1)[0], happened.SessionStarted)
 
 
-def test_nothing_of_one_visitor_is_left_for_the_next(booth: Booth) -> None:
+def test_nothing_of_one_visitor_is_left_for_the_next(make_booth: MakeBooth) -> None:
+    booth = make_booth(settings=BRIEF)
     booth.rehearse(seed=1)
     booth.start_game()
     board = booth.app.screens.board
-    assert len(board.closed) == 24
+    assert len(board.closed) == 12
     assert board.unmatched == {}
     assert board.highlighted == (None, None)
-    assert str(board.property("progress")) == "0 of 12 pairs"
+    assert str(board.property("progress")) == "0 of 6 pairs"
     assert str(board.property("moves")) == "0 moves"
 
 

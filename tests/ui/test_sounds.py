@@ -15,7 +15,7 @@ from kiosk.game import Position
 from kiosk.robots.audio import TARGET_LUFS, Clip, loudness_lufs
 from kiosk.ui.renderer import SoundEffect, sound_for
 from tests.ui.conftest import MakeBooth
-from tests.ui.headless import short
+from tests.ui.headless import BRIEF, short
 
 HERE = Position(0, 0)
 TURN = do.RevealCard(HERE, "owl")
@@ -72,9 +72,9 @@ def test_every_sound_is_the_one_that_its_notes_make(sound: SoundEffect, made: di
 def test_a_game_is_heard_unless_sounds_are_off(make_booth: MakeBooth, monkeypatch: pytest.MonkeyPatch) -> None:
     heard: list[str] = []
     monkeypatch.setattr("kiosk.ui.voice.SilentVoice.play", lambda _, file: heard.append(file.stem))
-    make_booth(settings=short(voice={"sounds": False})).rehearse(seed=1)
+    make_booth(settings=short(voice={"sounds": False}, game={"rows": 2, "columns": 3})).rehearse(seed=1)
     assert heard == []
-    make_booth(settings=short()).rehearse(seed=1)
+    make_booth(settings=BRIEF).rehearse(seed=1)
     assert heard[0] == "button"
     assert heard.count("end") == 1
     assert {"button", "flip", "match", "miss", "end"} <= set(heard)

@@ -15,7 +15,8 @@ from kiosk.sd_notify import NotifySocketListener
 from kiosk.ui.event_loop import heartbeat
 from kiosk.ui.screens.shell import KioskScreen
 from tests.samples import ENGLISH
-from tests.ui.conftest import Booth
+from tests.ui.conftest import MakeBooth
+from tests.ui.headless import TINY
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="there are no Unix sockets")
 
@@ -127,7 +128,8 @@ class Told:
     last: Told
 
 
-def test_a_whole_session_is_told_screen_by_screen(booth: Booth, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_whole_session_is_told_screen_by_screen(make_booth: MakeBooth, monkeypatch: pytest.MonkeyPatch) -> None:
+    booth = make_booth(settings=TINY)
     monkeypatch.setenv("NOTIFY_SOCKET", "somewhere")
     monkeypatch.setattr("kiosk.ui.event_loop.Notifier", Told)
     booth.rehearse(1)

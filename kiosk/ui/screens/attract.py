@@ -38,6 +38,15 @@ class AttractScreen(QObject):
         super().__init__(parent)
         self._pictures = list(pictures)
         self._catalogues = tuple(catalogues)
+        # QML asks for it at every item of the list that it looks at.
+        self._ways = [
+            {
+                "language": catalogue.language,
+                "name": catalogue.text("language-name"),
+                "start": catalogue.text("attract-start"),
+            }
+            for catalogue in self._catalogues
+        ]
         self._language = self._first = 0
         self._trial: str | None = None
         self._cards = self._at_rest = 2 * self._pictures[:MOST_PAIRS]
@@ -164,14 +173,7 @@ class AttractScreen(QObject):
     @Property(list, constant=True)
     def ways(self) -> list[dict[str, str]]:
         """Return the ways in, one for each language: its code, its name, and "start" in it."""
-        return [
-            {
-                "language": catalogue.language,
-                "name": catalogue.text("language-name"),
-                "start": catalogue.text("attract-start"),
-            }
-            for catalogue in self._catalogues
-        ]
+        return self._ways
 
     @Slot(str)
     def start(self, language: str) -> None:
