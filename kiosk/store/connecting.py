@@ -94,7 +94,10 @@ def for_writing(path: Path) -> Connection:
     for file in (path, *(_beside(path, log) for log in LOGS)):
         make_private(file)
     # With uri=True another database can be attached for reading only; a path that is absolute is never taken for a URI.
-    connection = sqlite3.connect(path.absolute(), uri=True, isolation_level=None, factory=Connection)
+    # The kiosk writes on a thread of its own; the recorder has one thread at a time use the connection.
+    connection = sqlite3.connect(
+        path.absolute(), uri=True, isolation_level=None, factory=Connection, check_same_thread=False
+    )
     connection.path = path.resolve()
     _writers.add(connection)
     return connection

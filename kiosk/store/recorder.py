@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
+from threading import RLock
 from types import TracebackType
 from typing import Any, Self
 
@@ -158,7 +159,10 @@ OPENING_WAIT_MS = 5_000
 
 
 class Recorder:
-    """Writes one data folder; a second one on the same folder is refused in words."""
+    """Writes one data folder; a second one on the same folder is refused in words.
+
+    Any thread may call it; one waits until another is done.
+    """
 
     def __init__(self, folder: Path, site: str = "", *, wait_ms: int = 0) -> None:
         """Open the folder's database, and mark the sessions and finish the withdrawals that a crash cut off.
@@ -171,6 +175,8 @@ class Recorder:
         self.folder = folder
         self.site = checked_site(site)
         self._lock = lock_folder(folder)
+        self._alone = RLock()
+        """Held by the thread that uses the connection."""
         self._session = 0
         self._resumed = False
         """Whether the session had ended, and nothing has been written since."""
@@ -255,50 +261,53 @@ class Recorder:
 
         A session that never got its end, because the disk failed it, is marked as interrupted on the way.
         """
-        with self._transaction():
-            mark_interrupted(self._connection)
-            session = self._insert_session(provenance)
-            rows = event_rows(session, 1, events, first_hash(self._connection, session))
-            self._connection.executemany(_INSERT_EVENT, rows)
-            participant = enrol(self._connection, session, provenance.returning)
-        self._session = session
-        self._resumed = False
-        self._next_seq = 1
-        self._heads.begin()
-        self._written(rows)
-        self.sessions_begun += 1
-        return participant
+        with self._alone:
+            with self._transaction():
+                mark_interrupted(self._connection)
+                session = self._insert_session(provenance)
+                rows = event_rows(session, 1, events, first_hash(self._connection, session))
+                self._connection.executemany(_INSERT_EVENT, rows)
+                participant = enrol(self._connection, session, provenance.returning)
+            self._session = session
+            self._resumed = False
+            self._next_seq = 1
+            self._heads.begin()
+            self._written(rows)
+            self.sessions_begun += 1
+            return participant
 
     def resume(self, number: int) -> Participant:
         """Go on with a session that was interrupted: the next events follow its last one.
 
         Raises UserInputError if there is no such session, or if it ended in another way.
         """
-        with self._transaction():
-            mark_interrupted(self._connection)
-            seq = interrupted_at(self._connection, number)
-            participant = enrol_again(self._connection, number)
-            if participant is None:
-                raise UserInputError(
-                    f"session {number} is from before people were numbered, so it cannot be gone on with"
-                )
-            check_not_given_out_again(self._connection, number)
-            self._head = last_hash(self._connection, number)
-        self._session = number
-        self._next_seq = 1 + seq
-        self._resumed = True
-        self._heads.begin()
-        return participant
+        with self._alone:
+            with self._transaction():
+                mark_interrupted(self._connection)
+                seq = interrupted_at(self._connection, number)
+                participant = enrol_again(self._connection, number)
+                if participant is None:
+                    raise UserInputError(
+                        f"session {number} is from before people were numbered, so it cannot be gone on with"
+                    )
+                check_not_given_out_again(self._connection, number)
+                self._head = last_hash(self._connection, number)
+            self._session = number
+            self._next_seq = 1 + seq
+            self._resumed = True
+            self._heads.begin()
+            return participant
 
     def append(self, events: Sequence[Event]) -> None:
         """Write the session's next events, in one transaction; raises StorageError if the disk does not take them."""
-        rows = event_rows(self._session, self._next_seq, events, self._head)
-        with self._transaction():
-            if self._resumed:
-                go_on(self._connection, self._session)
-            self._connection.executemany(_INSERT_EVENT, rows)
-        self._resumed = False
-        self._written(rows)
+        with self._alone:
+            rows = event_rows(self._session, self._next_seq, events, self._head)
+            with self._transaction():
+                if self._resumed:
+                    go_on(self._connection, self._session)
+                self._connection.executemany(_INSERT_EVENT, rows)
+            self._resumed = False
+            self._written(rows)
 
     def code_keys(self) -> tuple[bytes, ...]:
         """Return what codes are hashed with."""
@@ -321,13 +330,14 @@ class Recorder:
 
         What is left of it in free pages and backups goes when the kiosk is opened next.
         """
-        rows = event_rows(self._session, self._next_seq, events, self._head)
-        with self._transaction():
-            note_intention(self._connection, self.folder, self._session)
-            self._connection.execute("PRAGMA secure_delete = ON")
-            self._connection.executemany(_INSERT_EVENT, rows)
-            bury(self._connection, self._session)
-        self._written(rows)
+        with self._alone:
+            rows = event_rows(self._session, self._next_seq, events, self._head)
+            with self._transaction():
+                note_intention(self._connection, self.folder, self._session)
+                self._connection.execute("PRAGMA secure_delete = ON")
+                self._connection.executemany(_INSERT_EVENT, rows)
+                bury(self._connection, self._session)
+            self._written(rows)
 
     # Outside sessions
 
@@ -393,8 +403,9 @@ class Recorder:
             self._heads.write(Head(self._session, self._next_seq - 1, self._head))
 
     def _close(self) -> None:
-        self._heads.close()
-        self._connection.close()
+        with self._alone:
+            self._heads.close()
+            self._connection.close()
         self._clear_end()
         self._lock.release()
 
@@ -409,10 +420,12 @@ class Recorder:
             _log.info("the end of the database was not cleared: %s", error)
 
     def _set_wait(self, wait_ms: int) -> None:
-        self._connection.execute(f"PRAGMA busy_timeout = {wait_ms}")
+        with self._alone:
+            self._connection.execute(f"PRAGMA busy_timeout = {wait_ms}")
 
     @contextmanager
     def _transaction(self, kind: str = "IMMEDIATE") -> Iterator[None]:
+        self._alone.acquire()
         try:
             self._connection.execute(f"BEGIN {kind}")
             yield
@@ -425,6 +438,7 @@ class Recorder:
             # Whatever went wrong, nothing of it stays; a full disk has already ended the transaction by itself.
             if self._connection.in_transaction:
                 self._connection.execute("ROLLBACK")
+            self._alone.release()
 
     def _insert_session(self, provenance: Provenance) -> int:
         plan = provenance.plan

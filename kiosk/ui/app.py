@@ -24,6 +24,7 @@ from kiosk.robots.driver import RobotDriver
 from kiosk.robots.registry import create_robot
 from kiosk.robots.selector import EmbodimentSelector
 from kiosk.store.recorder import Recorder
+from kiosk.ui.disk_writer import DiskWriter
 from kiosk.ui.event_loop import (
     Clock,
     EventLoop,
@@ -126,8 +127,7 @@ class App:
         self._loop = EventLoop(self.clock, owner, self.fault, self._beat)
         undo.callback(self._loop.close)
         virtual = mode.pace is ClockMode.VIRTUAL
-        self._work, self._slow = (InlineExecutor() if virtual else ThreadExecutor(self._landing) for _ in range(2))
-        self.runner.returns.work = self._work
+        self._start_threads(virtual=virtual)
         now_ms = partial(_virtual_wall_ms, self.clock) if virtual else wall_ms
         self.experimenter = ExperimenterConsole(self._reached(recorder), self.window, self._work, self._slow, now_ms)
         self._publisher = self._publish(settings, recorder, undo) if not virtual else None
@@ -136,6 +136,16 @@ class App:
             self.experimenter.upkeep.begin()
             self.experimenter.status_file.begin()
             self.experimenter.alarms.begin()
+
+    def _start_threads(self, *, virtual: bool) -> None:
+        """Start what works beside the interface; on virtual time nothing does."""
+        self._work, self._slow, self._writes = (
+            InlineExecutor() if virtual else ThreadExecutor(self._landing) for _ in range(3)
+        )
+        self.runner.returns.work = self._work
+        if not virtual:
+            # What a visitor does is written on a thread of its own, and does not wait for a copy or a list.
+            self.runner.writer = DiskWriter(self._writes)
 
     def _play_sounds(self, settings: VoiceConfig) -> None:
         """Play a sound with what happens, if the study wants any."""
@@ -197,6 +207,7 @@ class App:
                 part.close()
         self.embodiments.close()
         self._landing.close()
+        self._writes.close()
         self._work.close()
         self._slow.close()
         self.voice.close()

@@ -25,6 +25,7 @@ from kiosk.lazy_dataclass import dataclass
 from kiosk.robots.selector import EmbodimentSelector
 from kiosk.store.participants import Participant, ReturningVisitor
 from kiosk.store.recorder import Provenance, Recorder, StoreBusy
+from kiosk.ui.disk_writer import DiskWriter
 from kiosk.ui.event_loop import Clock, TimerWait
 from kiosk.ui.renderer import Renderer, SoundEffect, sound_for
 from kiosk.ui.returning import ReturnDesk
@@ -140,7 +141,7 @@ class SessionRecording:
     """What becomes of a session's events."""
 
     def __init__(self, recorder: Recorder, provenance: Provenance, kept: Callable[[], None] = lambda: None) -> None:
-        """Nothing is written until an outcome says so; ``kept`` is called when it is."""
+        """Nothing is written until an outcome says so; ``confirm`` calls ``kept`` once it is."""
         self.code = ""
         """What the participant can withdraw with; empty while nothing is stored."""
         self.participant = ""
@@ -149,6 +150,7 @@ class SessionRecording:
         self._provenance = provenance
         self._kept = kept
         self._keeping = RecordingState.UNDECIDED
+        self._confirmed = False
         self._held: list[Event] = []
 
     @classmethod
@@ -157,12 +159,23 @@ class SessionRecording:
         record = cls(recorder, provenance)
         record._name(recorder.resume(number))
         record._keeping = RecordingState.KEPT
+        record._confirmed = True
         return record
 
     @property
     def is_kept(self) -> bool:
         """Whether events are stored."""
         return self._keeping is RecordingState.KEPT
+
+    def reaches_disk(self, outcome: Outcome) -> bool:
+        """Whether the disk is written to for an outcome."""
+        return self.is_kept or outcome.recording is not None
+
+    def confirm(self) -> None:
+        """Tell once, on the caller's thread, that the session is on record."""
+        if self.is_kept and not self._confirmed:
+            self._confirmed = True
+            self._kept()
 
     def write(self, event: WorldEvent, outcome: Outcome) -> None:
         """Write, hold back or forget an event and what came of it.
@@ -201,7 +214,6 @@ class SessionRecording:
         self._name(self._recorder.begin(self._provenance, events))
         self._keeping = RecordingState.KEPT
         self._held.clear()
-        self._kept()
 
 
 RETRY_MS = 20
@@ -313,6 +325,8 @@ class SessionRunner:
         self.returns.on_failure = self._give_way
         self._queue: deque[WorldEvent] = deque()
         self._unwritten: _Handled | None = None
+        self.writer: DiskWriter | None = None
+        """Writes beside the interface; without one the interface waits for the disk."""
         self._busy = BusyWait(clock, recorder.wait_ms, lambda waits: screens.kiosk.wait(waits=waits))
         self._working = self._screen_changed = False
         self._begun_at = 0
@@ -433,8 +447,12 @@ class SessionRunner:
             return
         self._queue.append(event)
         # What happens while an event is at work, such as a voice that fails at once, waits for its turn.
-        if not self._working and not self._busy.under_way:
+        if not self._working and not self._waits_for_database:
             self._work()
+
+    @property
+    def _waits_for_database(self) -> bool:
+        return self._busy.under_way or (self.writer is not None and self.writer.is_under_way)
 
     def _timer_expired(self, timer: Timer) -> None:
         last, since = self.last_activity_ms(), self._waiting_since.get(timer)
@@ -468,6 +486,10 @@ class SessionRunner:
         """
         self._busy.end()
         with self._recorder.retrying(CLOSING_WAIT_MS):
+            if self.writer is not None and self.writer.is_under_way:
+                self._work()
+                self._busy.end()
+            self.writer = None
             self.dispatch(happened.ApplicationClosed(at_ms=self.now_ms()))
         if self._busy.under_way:
             _log.error("what happened last could not be written: another program holds the database")
@@ -528,13 +550,15 @@ class SessionRunner:
     def _rest(self, screen: str) -> None:
         """Get ready for the next visitor, with nothing left of the last one, and show the screen of this name."""
         self._busy.end()
+        if self.writer is not None:
+            self.writer.forget()
         self._queue.clear()
         self._session = self._record = self._unwritten = None
         self.returns.end()
         self._renderer.reset("pause" if self._shut or self._on_break else screen)
         self.on_idle()
 
-    def _work(self) -> None:
+    def _work(self) -> None:  # noqa: C901 - one branch for each way in which a write goes on
         """Handle, write and show what happened, in turn, until nothing is left or the database cannot take it now."""
         self._working = True
         try:
@@ -549,7 +573,13 @@ class SessionRunner:
                         continue
                 handled = self._unwritten
                 try:
-                    self._record.write(handled.event, handled.outcome)
+                    if self.writer is not None and self.writer.is_under_way:
+                        self.writer.end()
+                    elif self.writer is not None and self._record.reaches_disk(handled.outcome):
+                        self.writer.begin(partial(self._record.write, handled.event, handled.outcome), self._work)
+                        return
+                    else:
+                        self._record.write(handled.event, handled.outcome)
                 except StoreBusy as busy:
                     self._try_again(self._work, busy)
                     return
@@ -558,6 +588,7 @@ class SessionRunner:
                     return
                 self._busy.end()
                 self._unwritten = None
+                self._record.confirm()
                 if self._record.is_kept:
                     self.on_recorded(self._record.participant, (handled.event, *handled.outcome.events))
                 self._before_effects(handled.outcome, self._record.code, returns=session.may_return)

@@ -337,6 +337,7 @@ def test_the_interface_goes_on_while_another_process_holds_the_database(qtbot: Q
     with headless(short(), tmp_path, mode=RunMode(WindowMode.NOWHERE)) as app:
         qtbot.waitUntil(lambda: app.window.isExposed() and app.window.isActive())
         app.runner.start("en")
+        qtbot.waitUntil(lambda: app.screens.kiosk.shown == "introduction")
         command = [sys.executable, "-c", HOLDER, str(tmp_path / FILE)]
         with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as holder:
             assert holder.stdin is not None

@@ -142,7 +142,7 @@ def test_a_session_that_timed_out_leaves_a_start_screen_that_plays_and_can_be_st
         kiosk, attract = app.screens.kiosk, app.screens.attract
         for _ in range(2):
             app.runner.start("en")
-            assert kiosk.shown != "attract"
+            qtbot.waitUntil(lambda: kiosk.shown != "attract")
             qtbot.waitUntil(lambda: kiosk.shown == "attract" and kiosk.takes_input, timeout=20_000)
             with qtbot.waitSignal(attract.turned):
                 pass

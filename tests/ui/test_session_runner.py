@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from threading import Thread
+from typing import TypeVar
 
 import pytest
 from PySide6.QtCore import Qt
@@ -14,10 +16,13 @@ from kiosk.experiment.outcomes import Status
 from kiosk.game import Position
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
+from kiosk.ui.disk_writer import DiskWriter
 from kiosk.ui.session_runner import ERROR_SCREEN_MS
 from kiosk.ui.window import RunMode
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import BRIEF, HALF, SMALL, TINY, short
+
+T = TypeVar("T")
 
 QUICK = short(idle_ms={"game": 3_000, "still_there": 1_000})
 
@@ -195,3 +200,90 @@ def test_a_second_failure_has_a_calm_screen_as_long_as_the_first(booth: Booth) -
     clock.after(ERROR_SCREEN_MS - 1, runner.pause)
     booth.wait_until(lambda: booth.screen == "attract")
     assert clock.now_ms() == ERROR_SCREEN_MS - 1 + ERROR_SCREEN_MS
+
+
+class SlowDisk:
+    """Has writes wait until they are let go, and does them on a thread of its own."""
+
+    def __init__(self) -> None:
+        self._held: list[tuple[Callable[[], None], Callable[[], None]]] = []
+
+    def __call__(self, job: Callable[[], T], then: Callable[[T], None]) -> None:
+        """Keep a write."""
+        done: list[T] = []
+        self._held.append((lambda: done.append(job()), lambda: then(done[0])))
+
+    def begin(self) -> Thread:
+        """Let the writes that wait reach the disk, in their order, without a word."""
+        jobs = [job for job, _ in self._held]
+        thread = Thread(target=lambda: [job() for job in jobs])
+        thread.start()
+        return thread
+
+    def let_go(self) -> None:
+        """Let them reach the disk, and tell of it."""
+        self.begin().join()
+        held, self._held = self._held, []
+        for _, tell in held:
+            tell()
+
+
+@pytest.fixture
+def slow_disk(booth: Booth) -> SlowDisk:
+    """Return the disk of a booth in whose game the next write waits."""
+    booth.start_game()
+    booth.settle()
+    disk = SlowDisk()
+    booth.app.runner.writer = DiskWriter(disk)
+    return disk
+
+
+def stored_flips(booth: Booth) -> list[Position]:
+    """Return which cards are stored as tapped."""
+    with open_repository(booth.data) as stored:
+        return [event.position for event in stored.events(1) if isinstance(event, happened.CardSelected)]
+
+
+def test_a_card_is_turned_once_the_disk_has_the_tap_and_the_next_tap_after_it(
+    booth: Booth, slow_disk: SlowDisk
+) -> None:
+    board = booth.app.screens.board
+    for name in ("card-3", "card-4"):
+        booth.click(name)
+    assert (len(board.closed), stored_flips(booth)) == (24, [])
+    slow_disk.let_go()
+    assert (len(board.closed), stored_flips(booth)) == (23, [Position(0, 3)])
+    slow_disk.let_go()
+    assert (len(board.closed), stored_flips(booth)) == (22, [Position(0, 3), Position(0, 4)])
+
+
+def test_what_a_slow_disk_does_not_take_is_not_shown(
+    booth: Booth, slow_disk: SlowDisk, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    booth.click("card-3")
+    monkeypatch.setattr(Recorder, "append", refuse)
+    slow_disk.let_go()
+    assert booth.screen == "pause"
+    assert "the disk is full" in caplog.text
+    caplog.clear()
+
+
+def test_a_write_that_ends_after_its_session_was_dropped_changes_nothing(
+    booth: Booth, slow_disk: SlowDisk, caplog: pytest.LogCaptureFixture
+) -> None:
+    booth.click("card-3")
+    booth.app.fault(RuntimeError, RuntimeError("a fault"), None)
+    slow_disk.let_go()
+    assert (booth.screen, stored_flips(booth)) == ("pause", [Position(0, 3)])
+    caplog.clear()
+
+
+def test_closing_waits_for_the_write_under_way_and_loses_nothing(booth: Booth, slow_disk: SlowDisk) -> None:
+    booth.click("card-3")
+    booth.click("card-4")
+    disk = slow_disk.begin()
+    booth.app.runner.close()
+    disk.join()
+    assert stored_flips(booth) == [Position(0, 3), Position(0, 4)]
+    with open_repository(booth.data) as stored:
+        assert stored.sessions()[0].status is Status.INTERRUPTED
