@@ -22,9 +22,6 @@ WORK = ROOT / "build" / "pyinstaller"
 DIST = ROOT / "dist"
 NAME = "recollect"
 
-PYINSTALLER = "import gc; gc.disable(); from PyInstaller.__main__ import run; run()"
-"""PyInstaller, which keeps all that it reads: looking for what it could free takes a sixth of its time."""
-
 DATA = {
     "assets": "kiosk/assets",
     "policies": "kiosk/policies",
@@ -119,7 +116,12 @@ def folder() -> str:
         # Not --strip: numpy's linear algebra does not survive it.
         *(["--hide-console", "hide-early"] if os.name == "nt" else []),
     ]
-    command = [sys.executable, "-c", PYINSTALLER, *options, str(ROOT / "packaging" / "frozen.py")]
+    command = [
+        sys.executable,
+        str(ROOT / "packaging" / "quick_scan.py"),
+        *options,
+        str(ROOT / "packaging" / "frozen.py"),
+    ]
     done = subprocess.run(command, cwd=ROOT, check=False)
     if done.returncode:
         raise BuildFailed(f"PyInstaller ended with exit code {done.returncode}.")
