@@ -43,7 +43,11 @@ LONGEST = (
 )
 """Files that take longest. They begin first, so that no process works on alone at the end."""
 
-RULES = Path(__file__).parents[1] / ".pytest_cache" / "rules"
+CACHE = Path(__file__).parents[1] / ".pytest_cache"
+FONTS = CACHE / "matplotlib"
+"""Where a run leaves matplotlib's list of fonts, which each process would make anew in a second."""
+
+RULES = CACHE / "rules"
 """Where a run leaves the compiled rules of the training for the next; the folder in it is named after their text."""
 
 HOME = pytest.StashKey[TemporaryDirectory[str]]()
@@ -64,6 +68,10 @@ def pytest_configure(config: pytest.Config) -> None:
         os.environ["XDG_CACHE_HOME"] = f"{config.stash[HOME].name}/cache"
         if RULES.is_dir():
             shutil.copytree(RULES, Path(config.stash[HOME].name) / "cache" / "recollect")
+        FONTS.mkdir(parents=True, exist_ok=True)
+        os.environ.setdefault("MPLCONFIGDIR", str(FONTS))
+        # The matrices of the tests are small: further threads only wait for each other, at full speed.
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         # A shell that runs the tests in the background lets them ignore it, and so every program that they start.
         signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -87,6 +87,24 @@ for line in iter(sys.stdin.readline, ""):
 
 PROGRAM = "from kiosk.cli.main import main\nmain()\n"
 
+CHECKED = """
+import kiosk.cli.check
+from kiosk.cli.main import main
+from kiosk.preflight import CheckResult
+kiosk.cli.check.run_check_process = lambda what, *_: [CheckResult.ok(what, "tried once")]
+main()
+"""
+"""The program, which does not start the processes that draw and look for screens for each form of a command."""
+
+LEAST_SPOKEN = """
+import kiosk.cli.devices
+from kiosk.cli.main import main
+spoken_texts = kiosk.cli.devices.spoken_texts
+kiosk.cli.devices.spoken_texts = lambda plan: spoken_texts(plan)[::20]
+main()
+"""
+"""The program, which renders every twentieth sentence of a voice only."""
+
 
 class LoadedProgram:
     """The program, loaded and waiting for commands."""

@@ -3,35 +3,60 @@
 from __future__ import annotations
 
 import json
+import os
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import pytest
 from PySide6.QtGui import QImage
 
 from kiosk.ui.rehearsal import LAYOUTS
+from tests.forked import LoadedProgram
 from tests.golden import story
-from tests.golden.story import recollect
+
+Recollect = Callable[..., str]
 
 RESULT = {"session", "status", "condition", "embodiment", "flips", "moves", "pairs", "hints"}
 
 
-def test_the_golden_story_is_told_again_to_the_byte() -> None:
-    assert story.told() == story.FILE.read_text("utf-8")
+@pytest.fixture(scope="module")
+def recollect() -> Iterator[Recollect]:
+    """Run a command, which must end well and without a word on standard error; returns what it prints."""
+    with LoadedProgram() as program:
+
+        def run(*arguments: str) -> str:
+            done = program.run(arguments, story.FILE.parent, os.environ)
+            assert (done.returncode, done.stderr) == (0, ""), arguments
+            return done.stdout
+
+        yield run
 
 
-def test_a_rehearsal_prints_one_object_and_the_list_of_sessions_has_the_same(tmp_path: Path) -> None:
+def test_the_golden_story_is_told_again_to_the_byte(recollect: Recollect) -> None:
+    assert story.told(recollect) == story.FILE.read_text("utf-8")
+
+
+def test_a_rehearsal_prints_one_object_and_the_list_of_sessions_has_the_same(
+    recollect: Recollect, tmp_path: Path
+) -> None:
     arguments = ("--data", str(tmp_path), "--json")
-    played = json.loads(recollect("rehearse", "--headless", "--seed", "4", "--condition", "notom", *arguments))
+    study = tmp_path / "study.toml"
+    study.write_text('stages = ["introduction", "game", "result"]\n[game]\nrows = 2\ncolumns = 3\n')
+    wanted = ("--seed", "4", "--condition", "notom", "--study", str(study))
+    played = json.loads(recollect("rehearse", "--headless", *wanted, *arguments))
     (listed,) = json.loads(recollect("sessions", *arguments))
     assert set(played) >= RESULT
     assert played["status"] == "completed"
     assert played["condition"] == "notom"
-    assert played["pairs"] == 12
+    assert played["pairs"] == 3
     assert {key: listed[key] for key in RESULT} == {key: played[key] for key in RESULT}
 
 
-def test_every_moment_of_a_rehearsal_is_photographed(tmp_path: Path) -> None:
+def test_every_moment_of_a_rehearsal_is_photographed(recollect: Recollect, tmp_path: Path) -> None:
+    study = tmp_path / "study.toml"
+    study.write_text("[game]\nrows = 3\ncolumns = 4\n")
     shots = tmp_path / "shots"
-    here = ("--data", str(tmp_path / "data"), "--shots", str(shots))
+    here = ("--data", str(tmp_path / "data"), "--shots", str(shots), "--study", str(study))
     recollect("rehearse", "--headless", "--seed", "1", "--language", "es", "--layout", "both", *here)
     assert {sheet.name for sheet in shots.glob("contact-*")} == {"contact-es-upright.png", "contact-es-wide.png"}
     sheet = QImage(str(shots / "contact-es-upright.png"))

@@ -20,7 +20,7 @@ from kiosk.experiment.events import SessionStarted
 from kiosk.experiment.outcomes import SessionKind
 from kiosk.sd_notify import NotifySocketListener
 from kiosk.store.recorder import Provenance, Recorder
-from tests.forked import PROGRAM, LoadedProgram
+from tests.forked import CHECKED, LEAST_SPOKEN, PROGRAM, LoadedProgram
 from tests.packaging.scripts import load
 from tests.samples import WITH_PIN, plan
 from tests.store.visitors import new_code
@@ -127,7 +127,7 @@ def begun(tmp_path_factory: pytest.TempPathFactory, loaded: LoadedProgram) -> Pa
     def run(command: Sequence[str], environment: Mapping[str, str]) -> int:
         del environment
         shorter = ("--study", "spoken.toml", "--out", "pack") if command[1] == "voice" else ()
-        done = newcomer.run([*command[1:], *shorter])
+        done = newcomer.run([*command[1:], *shorter], LEAST_SPOKEN if shorter else PROGRAM)
         assert done.stderr == ""
         return done.returncode
 
@@ -172,7 +172,7 @@ def test_every_row_works_as_it_is_printed(row: str, newcomer: Newcomer) -> None:
         assert is_kept_up(newcomer, arguments)
         return
     has_a_window = command in {"", "replay"}
-    how = LEFT_AT_ONCE if has_a_window else PROGRAM
+    how = LEFT_AT_ONCE if has_a_window else CHECKED if command == "check" else PROGRAM
     less = LESS_OF_A_REPLAY if {"--film", "--headless"} & set(arguments) and command == "replay" else ()
     done = newcomer.run([*filled_in(newcomer, arguments), *LESS.get(command, less)], how)
     assert "Traceback" not in done.stderr

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -25,8 +26,8 @@ def recollect(*arguments: str) -> str:
     return done.stdout
 
 
-def told() -> str:
-    """Return the story as it goes today, one event a line."""
+def told(recollect: Callable[..., str] = recollect) -> str:
+    """Return the story as it goes today, one event a line; ``recollect`` runs the command."""
     with TemporaryDirectory() as data:
         recollect("rehearse", "--headless", "--seed", str(SEED), "--data", data, "--json")
         events = json.loads(recollect("events", "1", "--data", data, "--json"))

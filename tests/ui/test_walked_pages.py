@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -48,3 +49,11 @@ def test_a_page_that_does_not_fit_and_cannot_be_left_is_told_with_language_and_w
     (fault,) = [each for is_fault, each in found if is_fault]
     assert fault == f"{place}, a session cannot go on: 'continue' lies outside the window, on the screen introduction"
     assert any(f"{place}, a text is cut off: 'Unbreakable" in each for is_fault, each in found if not is_fault)
+
+
+def test_every_language_is_tried_in_every_window(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "study.toml").write_text(STUDY.replace('["en"]', '["en", "it"]'), "utf-8")
+    tried: list[tuple[object, ...]] = []
+    monkeypatch.setattr(rehearse, "_walk", lambda *given: tried.append(given[3:5]))
+    assert list(rehearse.walk_pages(read_study(Settings.read(tmp_path / "study.toml")))) == []
+    assert tried == list(product(("en", "it"), ((1280, 720), (1920, 1080), (1080, 1920))))
