@@ -84,9 +84,14 @@ class Booth:
 
     def prepare_pages(self) -> None:
         """Have every page made, as a booth has them after its first frame."""
-        shown = self.screen
-        for page in ("about", "consent", "age", "introduction", "result", "debrief", "thanks", shown):
-            self.app.screens.kiosk.show(page)
+        shown, kiosk = self.screen, self.app.screens.kiosk
+        kiosk.begin((), kiosk.spoken_language, self.app.assigner.study.settings.consent)
+        kiosk.clear()
+        for page in ("about", "consent", "age", "introduction", "game", "result", "debrief", "thanks", shown):
+            kiosk.show(page)
+        # Without ever having had cards, the board has not chosen a first one.
+        self.app.screens.board.deal(2, 2, 2, "animals")
+        self.app.screens.board.clear()
         self.settle()
 
     def jump(self) -> None:

@@ -9,6 +9,8 @@ PageFrame {
     id: view
 
     required property FormScreen form
+    // How far from the window's left edge the page begins.
+    required property real before
 
     readonly property bool alone: form.items.length === 1
     readonly property bool dense: form.items.length > 4
@@ -213,7 +215,7 @@ PageFrame {
     // Where the keys of a number stand: in the helper's place, in the margin, or below everything; they cover no answer
     // unless there is no such place.
     function padPlace(wide: real, tall: real): point {
-        const before = parent.x, after = Window.width - before - width
+        const after = Window.width - before - width
         const beside = keyboard.field === null ? 0
             : Math.max(0, Math.min(height - tall, foot - tall - Theme.gap, begin + home.y + keyboard.field.mapToItem(home, 0, keyboard.field.height / 2).y - tall / 2))
         if (Math.max(before, after) >= wide)

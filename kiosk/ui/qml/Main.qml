@@ -109,30 +109,39 @@ Window {
         active: root.prepares
         onShownChanged: if (shown) active = true
     }
+    // The same for what a session needs at any time: where nothing is made between frames, it comes with the session.
+    component Later: Loader {
+        required property bool shown
+        readonly property bool wanted: shown || root.prepares || root.kiosk.inSession
+        asynchronous: root.prepares && !shown
+        visible: shown && status === Loader.Ready
+        active: false
+        onWantedChanged: if (wanted) active = true
+    }
     Item {
         id: stage
         x: root.wide && root.boardOnRight ? root.width - width : 0
-        y: root.wide || !boardView.visible ? 0
+        y: root.wide || !boardPage.visible ? 0
          : Math.round(root.high ? Math.max(0, (free - height) / 2)
                       : 0.03 * root.room)
         readonly property real free: root.room - corner.height - Theme.gap - root.sentence
         LayoutMirroring.enabled: Theme.mirrored
         LayoutMirroring.childrenInherit: true
         // A form without an onlooker stands in the middle.
-        readonly property point middle: Qt.point(x + (boardView.visible ? boardView.middle : width / 2), root.room / 2)
+        readonly property point middle: Qt.point(x + (boardPage.visible ? boardPage.view.middle : width / 2), root.room / 2)
         readonly property bool unwatched: root.avatar.away && root.kiosk.screen === "form"
         width: root.wide && !root.whole && !unwatched ? root.width * (attractView.visible ? 0.64 : 0.715) : root.width
         // On an upright screen the assistant stands below: with its sentence, alone, or not at all. It makes room for
         // large texts, but on a form, where the keys of a number stand in its place.
         height: root.wide ? root.room - root.said
-              : root.high ? (boardView.visible ? Math.min(free, boardView.wish) : free)
+              : root.high ? (boardPage.visible ? Math.min(free, boardPage.view.wish) : free)
               : unwatched ? root.room - corner.height - Theme.gap : root.room * upright
         // Board and assistant stand close together: the board takes what its cards need, at least half of the screen.
         readonly property real upright: !root.speaks ? (root.texts > 1.15 && root.kiosk.screen !== "form" ? 0.84 : 0.78)
               : attractView.visible ? (root.texts > 1.3 ? 0.76 : Math.max(0.57, 0.57 + 0.25 * (root.texts - 1)))
-              : !boardView.visible ? 0.64
+              : !boardPage.visible ? 0.64
               // The helper keeps its size from the practice to the game.
-              : Math.max(0.62, Math.min(0.64, boardView.wish / root.room))
+              : Math.max(0.62, Math.min(0.64, boardPage.view.wish / root.room))
         // A screen that has only just come takes no input: a double click belongs to the one before.
         enabled: root.kiosk.takesInput && root.kiosk.bare
 
@@ -184,17 +193,37 @@ Window {
                 words: root.words
             }
         }
-        // Keys of a number stand beside this page, where a page that is made later is not touched.
-        FormView {
-            id: formView
-            anchors.fill: parent
-            visible: root.kiosk.screen === "form"
+        // Keys of a number stand beside this page, and what stands beside a loader is not touched: it is as large as the
+        // window.
+        Later {
+            id: formPage
+            shown: root.kiosk.screen === "form"
+            property bool keysBelow: false
+            property bool keysBeside: false
+            x: -stage.x
+            y: -stage.y
+            width: root.width
+            height: root.height
             focus: visible && root.kiosk.bare
-            accompanied: root.accompanied && !root.avatar.away
-            aligned: root.accompanied
-            form: root.form
-            kiosk: root.kiosk
-            words: root.words
+            sourceComponent: FocusScope {
+                focus: true
+                FormView {
+                    id: formView
+                    x: stage.x
+                    y: stage.y
+                    width: stage.width
+                    height: stage.height
+                    focus: true
+                    accompanied: root.accompanied && !root.avatar.away
+                    aligned: root.accompanied
+                    before: stage.x
+                    form: root.form
+                    kiosk: root.kiosk
+                    words: root.words
+                }
+                Binding { target: formPage; property: "keysBelow"; value: formView.keysBelow }
+                Binding { target: formPage; property: "keysBeside"; value: formView.keysBeside }
+            }
         }
         Page {
             name: "introduction"
@@ -208,24 +237,28 @@ Window {
                 cardShadow: root.cardShadow
             }
         }
-        BoardView {
-            id: boardView
+        Later {
+            id: boardPage
+            shown: root.kiosk.screen === "game" || root.kiosk.screen === "practice"
             anchors.fill: parent
-            visible: root.kiosk.screen === "game" || root.kiosk.screen === "practice"
             focus: visible && root.kiosk.bare
-            board: root.board
-            words: root.words
-            cardBack: root.cardBack
-            cardShadow: root.cardShadow
-            onTouchedSomething: helper.notice(helper.mapFromItem(boardView, touched.x, touched.y))
-            upright: !root.wide
-            prepares: root.prepares
-            said: helper.says
-            faceAt: root.wide || !root.avatar.present ? 0 : helper.y + helper.faceTop - stage.y
-            onWon: if (!root.board.practice) feast.begin()
-            // How a practice goes is clear by now.
-            onFirstFound: if (root.board.practice && !root.board.speaking) helper.fade()
-            onVisibleChanged: if (!visible) helper.stopNoticing()
+            readonly property BoardView view: item as BoardView
+            sourceComponent: BoardView {
+                id: boardView
+                focus: true
+                board: root.board
+                words: root.words
+                cardBack: root.cardBack
+                cardShadow: root.cardShadow
+                onTouchedSomething: helper.notice(helper.mapFromItem(boardView, touched.x, touched.y))
+                upright: !root.wide
+                prepares: root.prepares
+                said: helper.says
+                onWon: if (!root.board.practice) feast.begin()
+                // How a practice goes is clear by now.
+                onFirstFound: if (root.board.practice && !root.board.speaking) helper.fade()
+                onVisibleChanged: if (!visible) helper.stopNoticing()
+            }
         }
         Page {
             name: "result"
@@ -269,21 +302,23 @@ Window {
         onPointChanged: helper.follow(point.position)
     }
     // Under the assistant, who rests meanwhile.
-    CalmCard {
+    Later {
         anchors.fill: parent
-        visible: root.kiosk.paused || root.kiosk.screen === "pause"
-        // Beside the assistant, or above it.
-        middle: root.whole || !helper.visible ? Qt.point(root.width / 2, root.room / 2)
-              : root.wide ? stage.middle : Qt.point(root.width / 2, 0.36 * root.room)
-        speaker: root.faceBelow
-        least: (root.faceBelow > 0 ? 625 : 500) * Theme.unit
-        breathes: true
-        sign: "M8 4 V20 M16 4 V20"
-        thick: 4.7
-        title: root.words["pause-title"]
-        titleSize: Theme.size(76)
-        line: root.kiosk.pauseLine
-        lineSize: Theme.size(46)
+        shown: root.kiosk.paused || root.kiosk.screen === "pause"
+        sourceComponent: CalmCard {
+            // Beside the assistant, or above it.
+            middle: root.whole || !helper.visible ? Qt.point(root.width / 2, root.room / 2)
+                  : root.wide ? stage.middle : Qt.point(root.width / 2, 0.36 * root.room)
+            speaker: root.faceBelow
+            least: (root.faceBelow > 0 ? 625 : 500) * Theme.unit
+            breathes: true
+            sign: "M8 4 V20 M16 4 V20"
+            thick: 4.7
+            title: root.words["pause-title"]
+            titleSize: Theme.size(76)
+            line: root.kiosk.pauseLine
+            lineSize: Theme.size(46)
+        }
     }
     SidePanel {
         id: helper
@@ -294,7 +329,7 @@ Window {
         // A whole number: edges that move by fractions do not come back to the last bit.
         readonly property real above: !below && corner.visible ? Math.ceil(corner.height + 0.7 * Theme.gap) : 0
         // On an upright screen a long sentence may reach up to the cards, where an announcement stood before it.
-        readonly property real reach: boardView.visible && !root.wide && root.avatar.present && root.texts <= 1 ? 80 * Theme.unit : 0
+        readonly property real reach: boardPage.visible && !root.wide && root.avatar.present && root.texts <= 1 ? 80 * Theme.unit : 0
         y: below ? stage.y + stage.height - reach : above
         // Beside a robot on a wide screen, what is said ends before the controls.
         width: !below ? root.width - stage.width - Theme.gap : broad ? 0.88 * root.width
@@ -303,28 +338,28 @@ Window {
         visible: !root.whole || root.speaks
         avatar: root.avatar
         speaks: root.wide || root.speaks
-        thinks: boardView.visible && root.board.speaking
-        yields: formView.visible && formView.keysBelow && !root.kiosk.paused && !root.asking
+        thinks: boardPage.visible && root.board.speaking
+        yields: formPage.visible && formPage.keysBelow && !root.kiosk.paused && !root.asking
         rests: root.kiosk.paused
         waits: root.kiosk.asks !== "" || root.kiosk.asksStillThere
         // Large sentences need the room.
-        share: root.wide ? (attractView.visible ? 0.6 : 0.52) : root.texts <= 1.15 ? (boardView.visible ? 0.68 : attractView.visible ? 0.88 : root.kiosk.screen === "introduction" ? 0.65 : 0.72) : 0.64
+        share: root.wide ? (attractView.visible ? 0.6 : 0.52) : root.texts <= 1.15 ? (boardPage.visible ? 0.68 : attractView.visible ? 0.88 : root.kiosk.screen === "introduction" ? 0.65 : 0.72) : 0.64
         broad: !root.wide
         calls: root.accompanied && attractView.visible
         leads: root.asking || !root.speaks
         hushed: root.asking && !root.wide
-        readonly property bool done: boardView.visible && boardView.last.length > 0 && !root.board.practice
+        readonly property bool done: boardPage.visible && boardPage.view.last.length > 0 && !root.board.practice
         readonly property string turn: done ? root.words["game-found"]
-            : boardView.visible && root.board.untouched && root.board.open ? root.words["game-begin"] : ""
+            : boardPage.visible && root.board.untouched && root.board.open ? root.words["game-begin"] : ""
         aside: !root.avatar.present || root.whole ? "" : !root.wide ? (root.kiosk.asks === "" && !root.kiosk.asksStillThere ? turn : "")
              : root.kiosk.asksStillThere ? root.words["still-there-line"]
              : root.kiosk.asks !== "" ? "" : attractView.visible ? root.attract.line
-             : formView.visible ? (root.avatar.away || formView.keysBeside ? "" : root.words["form-calm"])
-             : boardView.visible ? turn
+             : formPage.visible ? (root.avatar.away || formPage.keysBeside ? "" : root.words["form-calm"])
+             : boardPage.visible ? turn
              : [aboutPage, agePage, consentPage, debriefPage].find(page => page.shown)?.aside ?? ""
-        quiet: boardView.visible && boardView.moves
-        marks: boardView.visible && boardView.marks
-        marked: helper.mapFromItem(boardView, boardView.marked.x, boardView.marked.y)
+        quiet: boardPage.visible && boardPage.view.moves
+        marks: boardPage.visible && boardPage.view.marks
+        marked: boardPage.visible ? helper.mapFromItem(boardPage, boardPage.view.marked.x, boardPage.view.marked.y) : Qt.point(0, 0)
     }
     // Above the assistant; beside a robot and on an upright screen at the bottom, where a sentence leaves room.
     Corner {
@@ -361,50 +396,59 @@ Window {
         anchors { left: parent.left; right: parent.right; top: parent.top }
         height: root.room
     }
-    CalmCard {
+    Later {
         anchors.fill: parent
-        visible: root.kiosk.asksStillThere
+        shown: root.kiosk.asksStillThere
         focus: visible
         enabled: root.kiosk.takesInput
-        sign: "M1.5 12 C6 3.5 18 3.5 22.5 12 C18 20.5 6 20.5 1.5 12 Z M12 8.5 A3.5 3.5 0 0 1 12 15.5 A3.5 3.5 0 0 1 12 8.5"
-        title: root.words["still-there-title"]
-        middle: root.asking && root.wide ? stage.middle : Qt.point(root.width / 2, root.room / 2)
-        speaker: root.faceBelow
-        line: root.asking && root.wide ? "" : root.words["still-there-line"]
-        lineSize: Theme.size(36)
-        // A replay has a time of its own.
-        lasts: root.replay === null ? root.kiosk.answerMs : 0
-        choices: [{ name: "still-here", words: root.words["still-there-yes"] }]
-        onChosen: root.kiosk.confirm()
+        sourceComponent: CalmCard {
+            focus: true
+            sign: "M1.5 12 C6 3.5 18 3.5 22.5 12 C18 20.5 6 20.5 1.5 12 Z M12 8.5 A3.5 3.5 0 0 1 12 15.5 A3.5 3.5 0 0 1 12 8.5"
+            title: root.words["still-there-title"]
+            middle: root.asking && root.wide ? stage.middle : Qt.point(root.width / 2, root.room / 2)
+            speaker: root.faceBelow
+            line: root.asking && root.wide ? "" : root.words["still-there-line"]
+            lineSize: Theme.size(36)
+            // A replay has a time of its own.
+            lasts: root.replay === null ? root.kiosk.answerMs : 0
+            choices: [{ name: "still-here", words: root.words["still-there-yes"] }]
+            onChosen: root.kiosk.confirm()
+        }
     }
-    CalmCard {
+    Later {
         anchors.fill: parent
-        visible: root.kiosk.asks === "stop" && !root.kiosk.paused && !root.kiosk.waits
+        shown: root.kiosk.asks === "stop" && !root.kiosk.paused && !root.kiosk.waits
         focus: visible
         enabled: root.kiosk.takesInput
-        middle: root.asking && root.wide ? stage.middle : Qt.point(root.width / 2, root.room / 2)
-        speaker: root.faceBelow
-        // A door, and the way out of it.
-        sign: "M13 4 H5 V20 H13 M10 12 H20 M16 8 L20 12 L16 16"
-        title: root.words["stop-title"]
-        line: root.kiosk.stopLine
-        lineSize: root.wide ? Theme.body : Theme.size(36)
-        code: root.kiosk.stopCode
-        choices: [{ name: "stop-no", words: root.words["stop-no"] }, { name: "stop-yes", words: root.words["stop-yes"], quiet: true }]
-        onChosen: name => name === "stop-yes" ? root.kiosk.stop() : root.kiosk.ask("")
-        Keys.onEscapePressed: root.kiosk.ask("")
+        sourceComponent: CalmCard {
+            focus: true
+            middle: root.asking && root.wide ? stage.middle : Qt.point(root.width / 2, root.room / 2)
+            speaker: root.faceBelow
+            // A door, and the way out of it.
+            sign: "M13 4 H5 V20 H13 M10 12 H20 M16 8 L20 12 L16 16"
+            title: root.words["stop-title"]
+            line: root.kiosk.stopLine
+            lineSize: root.wide ? Theme.body : Theme.size(36)
+            code: root.kiosk.stopCode
+            choices: [{ name: "stop-no", words: root.words["stop-no"] }, { name: "stop-yes", words: root.words["stop-yes"], quiet: true }]
+            onChosen: name => name === "stop-yes" ? root.kiosk.stop() : root.kiosk.ask("")
+            Keys.onEscapePressed: root.kiosk.ask("")
+        }
     }
-    CalmCard {
+    Later {
         anchors.fill: parent
-        visible: root.kiosk.asks === "language" && !root.kiosk.paused && !root.kiosk.waits
+        shown: root.kiosk.asks === "language" && !root.kiosk.paused && !root.kiosk.waits
         focus: visible
         enabled: root.kiosk.takesInput
-        sign: "M12 3 A9 9 0 0 1 12 21 A9 9 0 0 1 12 3 M3.5 9.5 H20.5 M3.5 14.5 H20.5 M12 3 C7.5 8 7.5 16 12 21 M12 3 C16.5 8 16.5 16 12 21"
-        title: root.words["control-language"]
-        choices: root.attract.ways.filter(way => root.kiosk.languages.includes(way.language))
-            .map(way => ({ name: `language-${way.language}`, words: way.name, quiet: way.language !== root.kiosk.language }))
-        onChosen: name => root.kiosk.selectLanguage(name.slice("language-".length))
-        Keys.onEscapePressed: root.kiosk.ask("")
+        sourceComponent: CalmCard {
+            focus: true
+            sign: "M12 3 A9 9 0 0 1 12 21 A9 9 0 0 1 12 3 M3.5 9.5 H20.5 M3.5 14.5 H20.5 M12 3 C7.5 8 7.5 16 12 21 M12 3 C16.5 8 16.5 16 12 21"
+            title: root.words["control-language"]
+            choices: root.attract.ways.filter(way => root.kiosk.languages.includes(way.language))
+                .map(way => ({ name: `language-${way.language}`, words: way.name, quiet: way.language !== root.kiosk.language }))
+            onChosen: name => root.kiosk.selectLanguage(name.slice("language-".length))
+            Keys.onEscapePressed: root.kiosk.ask("")
+        }
     }
     Loader {
         anchors.fill: parent
@@ -422,23 +466,28 @@ Window {
             }
         }
     }
-    CalmCard {
+    Later {
         anchors.fill: parent
-        visible: ["welcome", "unknown"].includes(root.kiosk.asks) && !root.kiosk.paused && !root.kiosk.waits
+        shown: ["welcome", "unknown"].includes(root.kiosk.asks) && !root.kiosk.paused && !root.kiosk.waits
         focus: visible
         enabled: root.kiosk.takesInput
-        title: root.words[root.kiosk.asks === "unknown" ? "return-as-new" : "return-welcome"]
-        choices: [{ name: "return-on", words: root.words["about-continue"] }]
-        onChosen: root.kiosk.ask("")
-        Keys.onEscapePressed: root.kiosk.ask("")
+        sourceComponent: CalmCard {
+            focus: true
+            title: root.words[root.kiosk.asks === "unknown" ? "return-as-new" : "return-welcome"]
+            choices: [{ name: "return-on", words: root.words["about-continue"] }]
+            onChosen: root.kiosk.ask("")
+            Keys.onEscapePressed: root.kiosk.ask("")
+        }
     }
-    CalmCard {
-        objectName: "wait"
-        sign: "M6 4 H18 M6 20 H18 M7 4 C7 9 12 10 12 12 C12 14 7 15 7 20 M17 4 C17 9 12 10 12 12 C12 14 17 15 17 20"
+    Later {
         anchors.fill: parent
-        visible: root.kiosk.waits && root.kiosk.screen !== "pause"
-        title: root.words["wait-title"]
-        line: root.words["wait-line"]
+        shown: root.kiosk.waits && root.kiosk.screen !== "pause"
+        sourceComponent: CalmCard {
+            objectName: "wait"
+            sign: "M6 4 H18 M6 20 H18 M7 4 C7 9 12 10 12 12 C12 14 7 15 7 20 M17 4 C17 9 12 10 12 12 C12 14 17 15 17 20"
+            title: root.words["wait-title"]
+            line: root.words["wait-line"]
+        }
     }
     PanelLayer {
         // Over the assistant too, who comes forward for a question.

@@ -61,9 +61,15 @@ Item {
             onLongPressed: desk.experimenter.hold()
         }
     }
-    PinCard {
+    // Made when it is first asked for, as few visits need it; then it stays.
+    Loader {
+        readonly property bool shown: desk.experimenter.card.step !== ""
         anchors { top: parent.top; right: parent.right; margins: Theme.gap }
-        card: desk.experimenter.card
-        words: desk.experimenter.panel.words
+        active: false
+        onShownChanged: if (shown) active = true
+        sourceComponent: PinCard {
+            card: desk.experimenter.card
+            words: desk.experimenter.panel.words
+        }
     }
 }
