@@ -156,7 +156,8 @@ class BoardScreen(QAbstractListModel):
         face = self._face(position)
         face.card, face.up = card, True
         self._touch()
-        self._tell(position)
+        index = self.index(self.location(position))
+        self.dataChanged.emit(index, index)
         self._count_up()
 
     def hide(self, positions: tuple[Position, ...]) -> None:
