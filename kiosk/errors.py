@@ -6,7 +6,6 @@ import re
 import reprlib
 import tomllib
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from difflib import get_close_matches
 from enum import Enum
 from functools import lru_cache
 from numbers import Integral, Real
@@ -265,6 +264,8 @@ _COMPARED = 40
 
 
 def _meant(key: str, keys: Sequence[str]) -> str:
+    from difflib import get_close_matches  # noqa: PLC0415 - only a mistake needs it
+
     close = get_close_matches(key[:_COMPARED], keys, n=1)
     if close:
         return f"; did you mean {close[0]!r}?"

@@ -10,9 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from enum import Enum
 from functools import cache
-from typing import Any, ClassVar
-
-from cattrs import BaseValidationError, Converter, transform_error
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from kiosk import UserInputError
 from kiosk.assistance.memory_model import MemoryEstimate
@@ -23,6 +21,9 @@ from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.plain_reading import by_name, plain_reader, read_position, read_texts
 from kiosk.game import FlipRejection, Position
 from kiosk.lazy_dataclass import dataclass
+
+if TYPE_CHECKING:
+    from cattrs import Converter
 
 
 class Timer(Enum):
@@ -725,8 +726,14 @@ def _action(name: str) -> ActionSpec:
         raise ValueError(str(error)) from error
 
 
-def _converter(*, explaining: bool) -> Converter:
-    """Return a converter to and from JSON values in which every closed set goes by name."""
+@cache
+def _converter(*, explaining: bool = False) -> Converter:
+    """Return a converter to and from JSON values in which every closed set goes by name.
+
+    One that explains what is wrong in a record takes three times as long.
+    """
+    from cattrs import Converter  # noqa: PLC0415 - the start screen reads and writes no event
+
     converter = Converter(forbid_extra_keys=True, detailed_validation=explaining)
     converter.register_structure_hook(Response | None, _response)
     converter.register_unstructure_hook(NotApplicable, lambda _: dict(_NOT_APPLICABLE_RECORD))
@@ -739,11 +746,6 @@ def _converter(*, explaining: bool) -> Converter:
         converter.register_unstructure_hook(closed_set, lambda member: member.name.lower())
         converter.register_structure_hook(closed_set, lambda name, enum: enum[name.upper()])
     return converter
-
-
-_CONVERTER = _converter(explaining=False)
-_EXPLAINING = _converter(explaining=True)
-"""The same, three times as slow, for what is wrong in a record."""
 
 
 @cache
@@ -761,7 +763,7 @@ def event_kinds() -> Mapping[str, type[Event]]:
 def to_record(event: Event) -> dict[str, Any]:
     """Return an event as JSON values: its class under ``type``, its fields under their names."""
     # The converter makes what writes a kind of event when the first one comes, as no session has them all.
-    record: dict[str, Any] = _CONVERTER.get_unstructure_hook(type(event))(event)
+    record: dict[str, Any] = _converter().get_unstructure_hook(type(event))(event)
     record["type"] = type(event).__name__
     return record
 
@@ -785,7 +787,7 @@ def _read(name: str, fields: dict[str, Any]) -> Event:
     except Exception:  # noqa: BLE001, S110 - what is not written as ever may be right, and is read in general
         pass
     try:
-        event: Event = _CONVERTER.get_structure_hook(kind)(fields, kind)
+        event: Event = _converter().get_structure_hook(kind)(fields, kind)
     except Exception:  # noqa: BLE001 - anything can be wrong in a record; the other converter finds out what
         event = _explained(fields, kind)
     return event
@@ -797,14 +799,14 @@ def _kind_to_read(name: str) -> tuple[type[Event], Callable[[dict[str, Any]], Ev
     kind = event_kinds().get(name)
     if kind is None:
         raise ValueError(f"event: there is no event {name!r}")
-    return kind, plain_reader(kind, _CONVERTERS, _CONVERTER.get_structure_hook)
+    return kind, plain_reader(kind, _CONVERTERS, _converter().get_structure_hook)
 
 
 _TRACE = tuple[tuple[int, float, float], ...]
 
 
 def _trace(places: list[Any]) -> tuple[tuple[int, float, float], ...]:
-    read: tuple[tuple[int, float, float], ...] = _CONVERTER.structure(places, _TRACE) if places else ()
+    read: tuple[tuple[int, float, float], ...] = _converter().structure(places, _TRACE) if places else ()
     return read
 
 
@@ -822,7 +824,9 @@ _CONVERTERS: Mapping[Any, Callable[[Any], Any]] = {
 
 def _explained(fields: dict[str, Any], kind: type[Event]) -> Event:
     """Read an event once more; raises ValueError, saying what is wrong with it."""
+    from cattrs import BaseValidationError, transform_error  # noqa: PLC0415 - as above
+
     try:
-        return _EXPLAINING.structure(fields, kind)
+        return _converter(explaining=True).structure(fields, kind)
     except (BaseValidationError, KeyError) as error:
         raise ValueError("; ".join(transform_error(error, path="event"))) from error

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 from kiosk.assistance.memory_model import MemoryModel
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import Event
 from kiosk.experiment.outcomes import Stage
-from kiosk.experiment.replay import ReplayStep
 from kiosk.game import Board, Concentration
 from kiosk.lazy_dataclass import dataclass
+
+if TYPE_CHECKING:
+    from kiosk.experiment.replay import ReplayStep
 
 
 @dataclass(frozen=True)

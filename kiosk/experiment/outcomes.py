@@ -76,6 +76,15 @@ class NotRecordedReason(Enum):
     """The visitor left before they had decided."""
 
 
+class RecordingState(Enum):
+    """Whether the session is written down."""
+
+    UNDECIDED = "undecided"
+    """What happens is held back until the visitor has decided."""
+    KEPT = "kept"
+    FORGOTTEN = "forgotten"
+
+
 class Disposition(Enum):
     """What became of a session, as far as the allocation list goes; every session has exactly one."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from enum import Enum
 from itertools import count
 from random import Random
 
@@ -28,7 +27,7 @@ from kiosk.experiment.game_stage import (
     SampleHints,
 )
 from kiosk.experiment.information import POINTER, RETURNING
-from kiosk.experiment.outcomes import NotRecordedReason, Stage, Status
+from kiosk.experiment.outcomes import NotRecordedReason, RecordingState, Stage, Status
 from kiosk.experiment.page_stages import (
     AboutStage,
     AgeStage,
@@ -276,15 +275,6 @@ def _deal(game: Game | Practice, cards: tuple[str, ...], chance: Random) -> Boar
         return Board.deal(game.rows, game.columns, cards, chance)
     except ValueError as error:
         raise UserInputError(f"no game can be dealt from the deck {game.deck!r}: {error}") from error
-
-
-class RecordingState(Enum):
-    """Whether the session is written down."""
-
-    UNDECIDED = "undecided"
-    """What happens is held back until the visitor has decided."""
-    KEPT = "kept"
-    FORGOTTEN = "forgotten"
 
 
 class Session:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from difflib import get_close_matches
 from functools import cached_property, partial
 from itertools import combinations
 from pathlib import Path
@@ -143,6 +142,8 @@ def _unknown_texts(catalogue: Catalogue, model: Catalogue) -> Iterator[str]:
     known = model.messages | Catalogue(catalogue.folder, {name: catalogue.sources[name] for name in said}).messages
     for name, written in catalogue.written.items():
         if written.source in replaced and name not in known and not name.startswith((f"{CARD}-", "-")):
+            from difflib import get_close_matches  # noqa: PLC0415 - only a mistake needs it
+
             close = get_close_matches(name, sorted(known), n=1)
             meant = f"; did you mean {close[0]!r}?" if close else ""
             yield f"{written.file}, line {written.line(written.entry)}: there is no message {name!r} to replace{meant}"

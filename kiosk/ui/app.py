@@ -237,9 +237,8 @@ class App:
         return None
 
     def _prepare(self) -> None:
-        self.window.setProperty("prepares", True)  # noqa: FBT003 - Qt's own
         catalogues = (plan.catalogue for plan in self.assigner.study.plans)
-        self._preparation = Preparation(self._window.owner, steps_of(catalogues))
+        self._preparation = Preparation(self._window.owner, steps_of(self.window, catalogues))
 
     def _reached(self, recorder: Recorder) -> Services:
         """Return what the experimenter can do something to."""

@@ -344,7 +344,12 @@ class KioskWindow:
         self._hold = FocusGuard(window, self._full_screen, lambda: desktop_of(window), owner)
         self._pointer = CursorAutohide(window, owner)
         self._awake: KeepAwake | None = None
-        window.frameSwapped.connect(self._keep_awake)
+        # Once the screen can be tapped.
+        self._asking = QTimer(owner)
+        self._asking.setSingleShot(True)
+        self._asking.timeout.connect(self._keep_awake)
+        self._waits_for_frame = True
+        window.frameSwapped.connect(self._follow_frame)
 
     @property
     def health(self) -> tuple[Health, ...]:
@@ -364,11 +369,19 @@ class KioskWindow:
         self._pointer.release()
         if self._awake is not None:
             self._awake.release()
-        else:
-            self._window.frameSwapped.disconnect(self._keep_awake)
+        self._stop_waiting()
+        self._asking.stop()
+
+    def _follow_frame(self) -> None:
+        self._stop_waiting()
+        self._asking.start(0)
+
+    def _stop_waiting(self) -> None:
+        if self._waits_for_frame:
+            self._waits_for_frame = False
+            self._window.frameSwapped.disconnect(self._follow_frame)
 
     def _keep_awake(self) -> None:
-        self._window.frameSwapped.disconnect(self._keep_awake)
         from kiosk.ui.keep_awake import all_inhibitors  # noqa: PLC0415 - D-Bus is loaded when the first frame is out
 
         self._awake = KeepAwake(all_inhibitors())

@@ -10,11 +10,15 @@ from functools import partial
 from importlib import import_module
 
 from PySide6.QtCore import QObject, QTimer
+from PySide6.QtQuick import QQuickWindow
 
 from kiosk.assistance.wording import Catalogue
 from kiosk.ui.screens.pages import draw_first_code
 
-MODULES = ("attr", "babel.dates", "fluent.runtime", "kiosk.assistance.fluent_messages", "http.client", "segno")
+MODULES = (
+    *("attr", "cattrs", "kiosk.experiment.page_stages", "kiosk.experiment.game_stage", "kiosk.experiment.session"),
+    *("babel.dates", "fluent.runtime", "kiosk.assistance.fluent_messages", "http.client", "segno"),
+)
 """What is loaded in turn; large ones are split, so that no picture waits long for one."""
 
 _FORMED = "game-pairs"
@@ -45,8 +49,11 @@ class Preparation:
             step()
 
 
-def steps_of(catalogues: Iterable[Catalogue]) -> Iterator[Callable[[], object]]:
+def steps_of(window: QQuickWindow, catalogues: Iterable[Catalogue]) -> Iterator[Callable[[], object]]:
     """Yield what a session needs and the start screen does not."""
+    # The pages are then made in the time between frames.
+    for pages in ("prepares", "preparesParts"):
+        yield partial(window.setProperty, pages, True)  # noqa: FBT003 - Qt's own
     for name in MODULES:
         yield partial(import_module, name)
     for catalogue in catalogues:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Property, QObject, Signal, Slot
 from PySide6.QtGui import QPainter
@@ -10,12 +11,14 @@ from PySide6.QtQml import QmlElement
 from PySide6.QtQuick import QQuickItem, QQuickPaintedItem
 
 from kiosk.experiment.memory_replay import BoardMemory, memory_after_steps
-from kiosk.experiment.replay import ReplayStep
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.ui.event_loop import Clock, TimerWait
 from kiosk.ui.memory_view import MARGIN, draw_memory
 from kiosk.ui.renderer import Renderer
 from kiosk.units import MS_PER_SECOND, SECONDS_PER_MINUTE
+
+if TYPE_CHECKING:
+    from kiosk.experiment.replay import ReplayStep
 
 SLOWEST, FASTEST = 0.25, 32.0
 HIDDEN_CODE = "· · ·"

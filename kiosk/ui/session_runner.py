@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from datetime import datetime
 from functools import partial
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from kiosk import StorageError
 from kiosk.experiment import effects as do
@@ -17,8 +17,7 @@ from kiosk.experiment.condition import AllocationSlot, Condition, condition_of_r
 from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import EmbodimentName, Event, InputDevice, SessionSetup, Timer, WorldEvent
 from kiosk.experiment.experimenter import AuditEvent
-from kiosk.experiment.outcomes import AllocationSource, SessionKind, Stage, Status
-from kiosk.experiment.session import RecordingState, Session
+from kiosk.experiment.outcomes import AllocationSource, RecordingState, SessionKind, Stage, Status
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.experiment.transitions import InvalidTransition
 from kiosk.lazy_dataclass import dataclass
@@ -31,6 +30,9 @@ from kiosk.ui.renderer import Renderer, SoundEffect, sound_for
 from kiosk.ui.returning import ReturnDesk
 from kiosk.ui.screens.registry import ScreenSet
 from kiosk.units import MS_PER_SECOND
+
+if TYPE_CHECKING:
+    from kiosk.experiment.session import Session
 
 
 @dataclass(frozen=True)
@@ -416,7 +418,7 @@ class SessionRunner:
         where this raises: InvalidTransition if that stage cannot begin anew, UserInputError or StorageError from the
         store.
         """
-        session = Session(provenance.plan, provenance.seed)
+        session = _new_session(provenance)
         for event in past:
             session.handle(event)
         body = self._renderer.body_name
@@ -535,7 +537,7 @@ class SessionRunner:
     def _begin(
         self, provenance: Provenance, record: SessionRecording, begun_at: int, session: Session | None = None
     ) -> None:
-        self._session = session or Session(provenance.plan, provenance.seed)
+        self._session = session or _new_session(provenance)
         self._record = record
         self._begun_at = begun_at
         self._renderer.begin(provenance.plan)
@@ -642,6 +644,12 @@ class SessionRunner:
     def _give_way(self, failure: StorageError) -> None:
         _log.error("%s", failure)
         self.pause()
+
+
+def _new_session(provenance: Provenance) -> Session:
+    from kiosk.experiment.session import Session  # noqa: PLC0415 - the start screen does without
+
+    return Session(provenance.plan, provenance.seed)
 
 
 def _timers(outcome: Outcome) -> dict[Timer, bool]:

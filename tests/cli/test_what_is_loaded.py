@@ -18,7 +18,7 @@ QUICK = (
     *("kiosk.cli.check_command", "kiosk.ui.startup_splash"),
 )
 
-LATER = {"babel", "fluent", "http.client", "segno"}
+LATER = {"attr", "cattrs", "kiosk.experiment.session", "PySide6.QtDBus", "babel", "fluent", "http.client", "segno"}
 """What a start leaves for the time after its first frame."""
 
 START = f"""

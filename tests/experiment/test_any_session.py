@@ -16,8 +16,8 @@ from kiosk.experiment.condition import CONDITIONS, Condition
 from kiosk.experiment.effects import BoardWait, Outcome
 from kiosk.experiment.events import EmbodimentName, Timer, WorldEvent
 from kiosk.experiment.items import TextPage
-from kiosk.experiment.outcomes import Stage, Status
-from kiosk.experiment.session import RecordingState, Session
+from kiosk.experiment.outcomes import RecordingState, Stage, Status
+from kiosk.experiment.session import Session
 from kiosk.experiment.transitions import BEFORE_DECIDING, InvalidTransition
 from kiosk.game import Position
 from tests.experiment.driver import some_answer, with_memory

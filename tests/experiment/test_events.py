@@ -133,7 +133,7 @@ def test_what_is_not_of_its_kind_is_read_as_in_general_or_not_at_all(kind: type[
     for wrong in ({}, {"at_ms": "early"}, {"at_ms": 3.0}, {"at_ms": True, "more": 1}, {"at_ms": None}):
         event: Event | None
         try:
-            event = happened._CONVERTER.structure(wrong, kind)
+            event = happened._converter().structure(wrong, kind)
         except Exception:  # noqa: BLE001 - whatever it is, it is not an event
             event = None
         if event is None:

@@ -12,8 +12,7 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.outcomes import NotRecordedReason, Stage, Status
-from kiosk.experiment.session import RecordingState
+from kiosk.experiment.outcomes import NotRecordedReason, RecordingState, Stage, Status
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.experiment.transitions import BEFORE_DECIDING
 from tests.experiment.driver import Driver, driven_to, with_memory

@@ -13,9 +13,9 @@ from kiosk.config import STAGES, Game, Practice
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import EmbodimentName, Timer, WorldEvent
-from kiosk.experiment.outcomes import Stage, Status
+from kiosk.experiment.outcomes import RecordingState, Stage, Status
 from kiosk.experiment.questionnaire import ItemOrder
-from kiosk.experiment.session import RecordingState, Session
+from kiosk.experiment.session import Session
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.experiment.transitions import InvalidTransition
 from tests.experiment.driver import Driver, Step, Voice, driven_to, replay

@@ -41,6 +41,8 @@ Window {
 
     // Whether pages are made before they are shown, in the time between frames.
     property bool prepares: false
+    // Whether the parts of a session are: after the pages, when their loaders know that they need not hurry.
+    property bool preparesParts: false
     // Taken over once, as Python hands over all texts each time.
     readonly property var words: kiosk.words
     readonly property bool wide: width >= height
@@ -112,7 +114,7 @@ Window {
     // The same for what a session needs at any time: where nothing is made between frames, it comes with the session.
     component Later: Loader {
         required property bool shown
-        readonly property bool wanted: shown || root.prepares || root.kiosk.inSession
+        readonly property bool wanted: shown || root.preparesParts || root.kiosk.inSession
         asynchronous: root.prepares && !shown
         visible: shown && status === Loader.Ready
         active: false
