@@ -117,7 +117,7 @@ def look_over(app: App, look: Look) -> None:
     for name, row, column in (("row", 1, None), ("column", None, 1), ("card", 1, 1)):
         screens.board.highlight(row, column)
         looked_at(app, look, f"game, a {name} is marked")
-    screens.board.clear()
+    screens.board.clear_highlight()
     screens.kiosk.ask_still_there(asks=True)
     screens.kiosk.end_input_guard()
     looked_at(app, look, "still there")
