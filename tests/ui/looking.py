@@ -120,32 +120,39 @@ def identity(thing: QObject) -> int:
     return int(Shiboken.getCppPointer(thing)[0])
 
 
-def untold(window: QQuickWindow) -> list[str]:
+def controls(window: QQuickWindow) -> set[int]:
+    """Return which items are controls; each is looked at closely, so it is done once for a screen."""
+    return {identity(item) for item in items(window.contentItem()) if is_control(item)}
+
+
+def untold(window: QQuickWindow, controlling: set[int]) -> list[str]:
     """Return what a person who cannot see the window would miss: controls without a role or name, and texts."""
     reached = announced(window)
     return [
         f"{item.objectName() or item.metaObject().className()} {item.property('text') or ''}"
         for item in items(window.contentItem())
-        if not _is_told(item, reached)
+        if not _is_told(item, reached, controlling)
     ]
 
 
-def _is_told(item: QQuickItem, reached: set[int]) -> bool:
-    role, name = described(item)
-    if is_control(item):
+def _is_told(item: QQuickItem, reached: set[int], controlling: set[int]) -> bool:
+    if identity(item) in controlling:
+        role, name = described(item)
         return (
             role not in (QAccessible.Role.NoRole, QAccessible.Role.Client) and bool(name) and identity(item) in reached
         )
-    if is_ignored(item) or not (item.inherits("QQuickText") and str(item.property("text")).strip()):
+    if not (item.inherits("QQuickText") and str(item.property("text")).strip()) or is_ignored(item):
         return True
-    return (bool(name) and identity(item) in reached) or _is_in_a_named_control(item, reached)
+    return (bool(described(item)[1]) and identity(item) in reached) or _is_in_a_named_control(
+        item, reached & controlling
+    )
 
 
-def _is_in_a_named_control(item: QQuickItem, reached: set[int]) -> bool:
+def _is_in_a_named_control(item: QQuickItem, named: set[int]) -> bool:
     """Whether what it says is part of a control's own name."""
     above: QQuickItem | None = item.parentItem()
     while above is not None:
-        if is_control(above) and described(above)[1] and identity(above) in reached:
+        if identity(above) in named and described(above)[1]:
             return True
         above = above.parentItem()
     return False
@@ -167,7 +174,7 @@ def strongest_change(before: QImage, after: QImage, where: QRect | None = None) 
 
     It is one of light alone, whatever the hue.
     """
-    one, other = (FLARE + _light(_pixels(picture, where) / 255) for picture in (before, after))
+    one, other = (FLARE + LINEAR[_pixels(picture, where)] @ SHARES for picture in (before, after))
     return float(np.max(np.maximum(one, other) / np.minimum(one, other)))
 
 
@@ -191,9 +198,18 @@ def _pixels(picture: QImage, where: QRect | None) -> NDArray[np.uint8]:
 
 def _light(colour: NDArray[np.float64]) -> Light:
     """Return the relative luminance of colours whose last axis is red, green and blue, 0 to 1."""
-    linear = np.where(colour <= LINEAR_FROM, colour / 12.92, ((colour + 0.055) / 1.055) ** 2.4)
-    found: Light = linear @ np.array([RED, GREEN, BLUE])
+    found: Light = _linear(colour) @ SHARES
     return found
+
+
+def _linear(colour: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return how much light each part of a colour gives, 0 to 1."""
+    return np.where(colour <= LINEAR_FROM, colour / 12.92, ((colour + 0.055) / 1.055) ** 2.4)
+
+
+SHARES = np.array([RED, GREEN, BLUE])
+LINEAR = _linear(np.arange(256) / 255)
+"""The same for each value of a pixel: a power takes long, and a picture has two million pixels."""
 
 
 def colours(palette: str) -> dict[str, QColor]:

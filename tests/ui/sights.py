@@ -14,7 +14,8 @@ from tests.ui.looking import (
     EXPERIMENTERS,
     background,
     contrast,
-    is_control,
+    controls,
+    identity,
     items,
     lies_in,
     painted,
@@ -56,15 +57,16 @@ class Sight:
 def look(window: QQuickWindow, moment: str, side: str) -> Sight:
     """Look closely at what stands there."""
     picture = window.grabWindow()
+    controlling = controls(window)
     over = [item for item in items(window.contentItem()) if _covers(item)]
     bars = _bars(window)
     shown = [text for text in texts(window.contentItem()) if _is_in_front(window, text, over)]
     share = ATTRACT_SHARE if moment.startswith("attract") else BOARD_SHARE
     return Sight(
         moment,
-        tuple(untold(window)),
+        tuple(untold(window, controlling)),
         tuple(_written(picture, text) for text in shown if not painted(text).isEmpty()),
-        tuple(_name(item) for item in _laid_out(window) if _is_astray(window, item, side, share)),
+        tuple(_name(item) for item in _laid_out(window, controlling) if _is_astray(window, item, side, share)),
         tuple(_name(text) for text in shown if any(bar.intersects(painted(text)) for bar in bars)),
     )
 
@@ -97,10 +99,10 @@ def _written(picture: QImage, text: QQuickItem) -> Written:
     )
 
 
-def _laid_out(window: QQuickWindow) -> Iterator[QQuickItem]:
+def _laid_out(window: QQuickWindow, controlling: set[int]) -> Iterator[QQuickItem]:
     """Yield the texts and controls of a visitor's screen, and the assistant's bubble."""
     for item in items(window.contentItem()):
-        if not lies_in(item, *OVER_EVERYTHING) and (item.inherits("QQuickText") or is_control(item)):
+        if (item.inherits("QQuickText") or identity(item) in controlling) and not lies_in(item, *OVER_EVERYTHING):
             yield item
 
 
