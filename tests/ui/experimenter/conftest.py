@@ -26,7 +26,7 @@ from kiosk.store.database import open_for_reading
 from kiosk.ui.app import App
 from kiosk.ui.experimenter.view_model import AuthorisationStep, CardScreen, NoteScreen, PanelScreen
 from tests.ui.conftest import Booth
-from tests.ui.headless import headless
+from tests.ui.headless import HALF, headless
 
 PIN = "258013"
 LINE = hash_pin(PIN, bytes(SALT_BYTES), cost=10)
@@ -186,7 +186,7 @@ def make_assigner(qtbot: QtBot, tmp_path: Path) -> Iterator[MakeDesk]:
             stack = built.enter_context(ExitStack())
             condition = None if "randomisation" in sections else "tom"
             settings = Settings.model_validate(given)
-            app = stack.enter_context(headless(settings, folder, condition=condition, robot=device))
+            app = stack.enter_context(headless(settings, folder, condition=condition, mode=HALF, robot=device))
             qtbot.waitUntil(lambda: app.window.isExposed() and app.window.isActive())
             assigner = Desk(app, folder)
             assigner.close = stack.close
