@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
-from functools import cached_property
+from functools import cache, cached_property
 from random import Random
 
 CARDS_IN_A_PAIR = 2
@@ -18,6 +18,12 @@ class Position:
 
     row: int
     column: int
+
+
+@cache
+def _places(rows: int, columns: int) -> tuple[Position, ...]:
+    """Return every place of a board of this size, row by row."""
+    return tuple(Position(row, column) for row in range(rows) for column in range(columns))
 
 
 @dataclass(frozen=True)
@@ -65,7 +71,7 @@ class Board:
 
     def __iter__(self) -> Iterator[Position]:
         """Every place, row by row."""
-        return (self.position(location) for location in range(len(self.cards)))
+        return iter(_places(self.rows, self.columns))
 
     def position(self, location: int) -> Position:
         """Place number ``location``, counted row by row from 0."""
@@ -110,7 +116,7 @@ class History:
 
     def count(self, position: Position) -> int:
         """How many times the card at ``position`` was turned up."""
-        return self._counts[position]
+        return self._counts.get(position, 0)
 
     def last(self, position: Position) -> int:
         """Return the number of the last flip of the card at ``position``, or 0 if it was never turned up."""
@@ -159,6 +165,7 @@ class Concentration:
         self.last_match = 0
         self.last_move_matched: bool | None = None
         self._open: tuple[Position, ...] = ()
+        self._closed: tuple[Position, ...] | None = None
 
     @property
     def flips(self) -> int:
@@ -198,7 +205,9 @@ class Concentration:
     @property
     def closed(self) -> tuple[Position, ...]:
         """Every place whose card may be flipped once no cards are turning back, row by row."""
-        return tuple(p for p in self.board if p not in self.found and p not in self._open)
+        if self._closed is None:
+            self._closed = tuple(p for p in self.board if p not in self.found and p not in self._open)
+        return self._closed
 
     def flip(self, position: Position) -> Flip:
         """Turn one card up and say what came of it; raises IllegalFlip and changes nothing if it may not be."""
@@ -206,6 +215,7 @@ class Concentration:
         if refusal is not None:
             raise IllegalFlip(position, refusal)
         self.history.record(position)
+        self._closed = None
         card = self.board.card(position)
         move = (self.flips + 1) // 2
         if self.first_card is None:
@@ -217,6 +227,7 @@ class Concentration:
         """Close the two unmatched cards, if two are shown; the next flip may come."""
         if self.turning_back:
             self._open = ()
+            self._closed = None
 
     def _complete_move(self, second: Position) -> bool:
         first = self._open[0]
