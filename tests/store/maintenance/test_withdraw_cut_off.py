@@ -168,15 +168,15 @@ def check_cut_off(folder: Path, code: str, number: int) -> bool:
 
 def test_a_withdrawal_is_finished_wherever_it_was_cut_off(pristine: tuple[Path, str], tmp_path: Path, cut: Cut) -> None:
     found, folder = 0, pristine[0]
-    # Neighbours are much alike, and each takes a quarter of a second.
-    for step in count(1, 3):
+    # Neighbours are much alike, and each takes a tenth of a second.
+    for step in count(1, 5):
         folder = Path(shutil.copytree(pristine[0], tmp_path / str(step)))
         if cut(folder, pristine[1], step=step) != KILLED:
             break
-        found += check_cut_off(folder, pristine[1], step // 3)
+        found += check_cut_off(folder, pristine[1], step // 5)
         shutil.rmtree(folder)
     check_finished(folder, pristine[1])
-    assert found > 10
+    assert found > 6
     assert step > 100
 
 
@@ -184,15 +184,15 @@ def test_a_withdrawal_is_finished_that_was_cut_off_in_the_middle_of_a_checkpoint
     pristine: tuple[Path, str], tmp_path: Path, cut: Cut
 ) -> None:
     found = 0
-    for page in range(2, (pristine[0] / FILE).stat().st_size // PAGE, 2):
+    for page in range(2, (pristine[0] / FILE).stat().st_size // PAGE, 3):
         folder = Path(shutil.copytree(pristine[0], tmp_path / str(page)))
         if cut(folder, pristine[1], page=page) == CUT_AT_A_PAGE:
-            found += check_cut_off(folder, pristine[1], page // 2)
-    assert found > 3
+            found += check_cut_off(folder, pristine[1], page // 3)
+    assert found > 2
 
 
 def test_a_withdrawal_that_is_cut_off_twice_is_finished(data: Path, code: str, cut: Cut) -> None:
-    step = next(step for step in count(1, 3) if cut(data, code, step=step) == KILLED and not is_there(data, code))
+    step = next(step for step in count(1, 5) if cut(data, code, step=step) == KILLED and not is_there(data, code))
     assert cut(data, code, step=step) == KILLED
     assert unfinished(data)
     assert withdraw(data, code).cut_off
