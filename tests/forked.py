@@ -109,9 +109,9 @@ main()
 class LoadedProgram:
     """The program, loaded and waiting for commands."""
 
-    def __init__(self, *modules: str, first: str = "") -> None:
+    def __init__(self, *modules: str, first: str = "", python: str | Path = sys.executable) -> None:
         """Load further modules, and run what is to be done once before all commands."""
-        command = [sys.executable, "-c", SERVER.replace("@FIRST@", first), *LOADED, *modules]
+        command = [python, "-c", SERVER.replace("@FIRST@", first), *LOADED, *modules]
         self._server = subprocess.Popen(command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
     def __enter__(self) -> Self:

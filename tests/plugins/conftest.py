@@ -11,7 +11,7 @@ import sys
 import sysconfig
 import venv
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +21,7 @@ from kiosk import UserInputError
 from kiosk.assistance.policy import find_action
 from kiosk.extensions import installed
 from kiosk.study.new import TEMPLATES
+from tests.forked import ROOT, LoadedProgram
 from tests.shared import made_once
 
 PLUGINS = Path(__file__).parent
@@ -55,15 +56,19 @@ class Lab:
     python: Path
     site: Path
     """The folder in which its packages are installed."""
+    loaded: LoadedProgram | None = None
+    """The program as it has been loaded there."""
 
     def recollect(self, *arguments: object, more: Path | None = None) -> subprocess.CompletedProcess[str]:
         """Run the command in it; ``more`` is a folder with further packages."""
         environment = os.environ | {"QT_QPA_PLATFORM": "offscreen", "QT_QUICK_BACKEND": "software"}
-        if more is not None:
-            environment["PYTHONPATH"] = str(more)
+        words = list(map(str, arguments))
+        if more is None:
+            assert self.loaded is not None
+            return self.loaded.run(words, ROOT, environment)
         return subprocess.run(
-            [self.python, "-m", "kiosk", *map(str, arguments)],
-            env=environment,
+            [self.python, "-m", "kiosk", *words],
+            env=environment | {"PYTHONPATH": str(more)},
             capture_output=True,
             encoding="utf-8",
             timeout=240,
@@ -78,9 +83,11 @@ class Lab:
 
 
 @pytest.fixture(scope="session")
-def lab(tmp_path_factory: pytest.TempPathFactory) -> Lab:
-    """Return the environment with the three packages, installed as pip does it without a network."""
-    return lab_in(made_once(tmp_path_factory, "lab", make_lab))
+def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
+    """Provide the environment with the three packages, installed as pip does it without a network."""
+    made = lab_in(made_once(tmp_path_factory, "lab", make_lab))
+    with LoadedProgram(python=made.python) as program:
+        yield replace(made, loaded=program)
 
 
 def lab_in(folder: Path) -> Lab:
