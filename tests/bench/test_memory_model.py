@@ -16,7 +16,7 @@ from kiosk.training.simulation import RecordedGame, record_games
 from kiosk.training.vectorised_game import NO_HELP
 from tests.bench.percentiles import tell_percentiles
 
-GAMES = 300
+GAMES = 120
 MOST_MS = 1.0
 
 
