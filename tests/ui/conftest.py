@@ -29,7 +29,7 @@ from kiosk.ui.event_loop import VirtualClock
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import BehaviourProfile, UiDriver, find_item, item_centre, lay_out
 from kiosk.ui.window import RunMode, Window
-from tests.ui.headless import VIRTUAL, headless, short
+from tests.ui.headless import PLAIN, VIRTUAL, headless
 
 
 @pytest.fixture(scope="session")
@@ -149,7 +149,7 @@ def make_booth(qtbot: QtBot, tmp_path: Path, run_mode: RunMode) -> Iterator[Make
             opened: Callable[[Path], Recorder] = Recorder,
         ) -> Booth:
             data = Path(mkdtemp(dir=tmp_path))
-            kiosk = headless(settings or short(), data, seed=seed, condition=condition, mode=run_mode, opened=opened)
+            kiosk = headless(settings or PLAIN, data, seed=seed, condition=condition, mode=run_mode, opened=opened)
             app = built.enter_context(kiosk)
             qtbot.waitUntil(lambda: app.window.isExposed() and app.window.isActive())
             return Booth(app, data)

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 
 from kiosk.config import Settings
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.outcomes import SessionKind
+from kiosk.experiment.session_config import StudyConfig
 from kiosk.robots.driver import RobotDriver
 from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study
@@ -44,6 +46,23 @@ TINY = short(game={"rows": 2, "columns": 3})
 """The same with a quarter of the cards, for tests in which a session only has to come to its end."""
 
 
+PLAIN = short()
+"""The same as the study file gives it."""
+
+_OFTEN = (PLAIN, BRIEF, TINY, SMALL)
+
+
+@cache
+def _often(number: int) -> StudyConfig:
+    return read_study(_OFTEN[number])
+
+
+def study_of(settings: Settings) -> StudyConfig:
+    """Return the study of these settings; those that hundreds of tests share are read once."""
+    number = next((number for number, shared in enumerate(_OFTEN) if shared is settings), None)
+    return read_study(settings) if number is None else _often(number)
+
+
 @contextmanager
 def headless(  # noqa: PLR0913 - all that a kiosk can differ in
     settings: Settings,
@@ -60,7 +79,7 @@ def headless(  # noqa: PLR0913 - all that a kiosk can differ in
 
     ``opened`` gives the recorder of a data folder.
     """
-    study = read_study(settings)
+    study = study_of(settings)
     fixed = Condition.from_name(condition) if condition else None
     origin = RunContext("a test", kind=kind, seed=lambda: seed, condition=fixed)
     with opened(data) as recorder, App(mode, recorder, ConditionAssigner(study, recorder, origin), robot) as app:

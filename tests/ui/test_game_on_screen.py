@@ -73,8 +73,8 @@ def looks(app: App, name: str) -> QImage:
 
 def in_tray(app: App) -> list[str]:
     """Return the pictures that lie in the tray, each of them once."""
-    shown = [item for item in items(app.window.contentItem()) if lies_in(item, "Tray")]
-    return list(dict.fromkeys(Path(i.property("source").path()).stem for i in shown if i.inherits("QQuickImage")))
+    pictures = [item for item in items(app.window.contentItem()) if item.inherits("QQuickImage")]
+    return list(dict.fromkeys(Path(i.property("source").path()).stem for i in pictures if lies_in(i, "Tray")))
 
 
 def test_a_pair_comes_to_the_tray_and_stays_on_the_board(app: App, qtbot: QtBot) -> None:

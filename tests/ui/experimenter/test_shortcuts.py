@@ -28,7 +28,7 @@ def say_something(assigner: Desk) -> None:
         # A hint comes only to a player who finds nothing.
         board = assigner.app.screens.board
         while not assigner.app.runner.accepts(happened.RepeatRequested(at_ms=assigner.app.runner.now_ms())):
-            for place in board.closed[:1]:
+            for place in board.closed[:1] if board.accepts_taps else ():
                 assigner.app.runner.dispatch(happened.CardSelected(at_ms=assigner.app.runner.now_ms(), position=place))
             assigner.jump()
     elif permission(Action.REPEAT, assigner.stage).effect is ActionEffect.NOW:
