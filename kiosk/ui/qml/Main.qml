@@ -334,7 +334,8 @@ Window {
         readonly property real reach: boardPage.visible && !root.wide && root.avatar.present && root.texts <= 1 ? 80 * Theme.unit : 0
         y: below ? stage.y + stage.height - reach : above
         // Beside a robot on a wide screen, what is said ends before the controls.
-        width: !below ? root.width - stage.width - Theme.gap : broad ? 0.88 * root.width
+        // An upright screen's bubble has the edges of its pages.
+        width: !below ? root.width - stage.width - Theme.gap : broad ? root.width - 4 * Theme.gap
              : Math.min(0.76 * root.width, root.width - 2 * (3 * corner.step + 1.7 * Theme.gap))
         height: root.high ? root.sentence : below ? root.room - y : root.room - above
         visible: !root.whole || root.speaks
