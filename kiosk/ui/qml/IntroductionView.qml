@@ -52,7 +52,7 @@ PageFrame {
 
         // Beside a sentence by the width alone, and above one by what is left of the height: no size follows from itself.
         readonly property real small: Math.floor(Math.min((width - numbers - 3 * Theme.gap) / 4.6, 190 * Theme.unit,
-            ((view.room - (view.boards - 1) * Theme.gap) / view.boards - 2 * pad - numbers) / 2))
+            ((view.room - (Theme.textSize > 1.15 ? 0 : 1.6) * Theme.gap - (view.boards - 1) * Theme.gap) / view.boards - 2 * pad - numbers) / 2))
         readonly property real most: Math.floor(Math.min((width - 2 * numbers - 0.5 * Theme.gap) / view.across,
                 (view.room - telling.height - numbers - 0.6 * Theme.gap - pad - floor) / view.down))
         readonly property real cell: view.abreast ? scenes.cell : small

@@ -141,6 +141,8 @@ Window {
         // Board and assistant stand close together: the board takes what its cards need, at least half of the screen.
         readonly property real upright: !root.speaks ? (root.texts > 1.15 && root.kiosk.screen !== "form" ? 0.84 : 0.78)
               : attractView.visible ? (root.texts > 1.3 ? 0.76 : Math.max(0.57, 0.57 + 0.25 * (root.texts - 1)))
+              // Its boards keep their distance to the buttons.
+              : root.kiosk.screen === "introduction" && root.texts <= 1.15 ? 0.66
               : !boardPage.visible ? 0.64
               // The helper keeps its size from the practice to the game.
               : Math.max(0.62, Math.min(0.64, boardPage.view.wish / root.room))
@@ -346,7 +348,7 @@ Window {
         rests: root.kiosk.paused
         waits: root.kiosk.asks !== "" || root.kiosk.asksStillThere
         // Large sentences need the room.
-        share: root.wide ? (attractView.visible ? 0.6 : 0.52) : root.texts <= 1.15 ? (boardPage.visible ? 0.68 : attractView.visible ? 0.88 : root.kiosk.screen === "introduction" ? 0.65 : 0.72) : 0.64
+        share: root.wide ? (attractView.visible ? 0.6 : 0.52) : root.texts <= 1.15 ? (boardPage.visible ? 0.68 : attractView.visible ? 0.88 : root.kiosk.screen === "introduction" ? 0.68 : 0.72) : 0.64
         broad: !root.wide
         calls: root.accompanied && attractView.visible
         leads: root.asking || !root.speaks
