@@ -7,19 +7,19 @@ import os
 import socket
 import subprocess
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from ctypes.util import find_library
 from pathlib import Path
 
 import pytest
 
-from kiosk import program
 from kiosk.config import Settings
 from kiosk.preflight import Severity
 from kiosk.study.loader import read_study
 from kiosk.ui import qt_platform
 from kiosk.ui.checks import frame_check, screens_check
 from kiosk.ui.qt_platform import missing_library, obstacle
+from tests.forked import ROOT, LoadedProgram
 from tests.samples import WITH_PIN
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a screen is always there")
@@ -38,11 +38,18 @@ def environment(**screen: str) -> dict[str, str]:
     return {name: value for name, value in os.environ.items() if name not in SCREENS} | screen
 
 
-def run(*arguments: str, **screen: str) -> subprocess.CompletedProcess[str]:
-    """Run the program where this is the screen."""
-    return subprocess.run(
-        program(*arguments), env=environment(**screen), capture_output=True, text=True, timeout=60, check=False
-    )
+Run = Callable[..., subprocess.CompletedProcess[str]]
+
+
+@pytest.fixture(scope="module")
+def run() -> Iterator[Run]:
+    """Provide what runs the program where this is the screen."""
+    with LoadedProgram() as loaded:
+
+        def run(*arguments: str, **screen: str) -> subprocess.CompletedProcess[str]:
+            return loaded.run(arguments, ROOT, environment(**screen))
+
+        yield run
 
 
 def lacks(*missing: str) -> type[ctypes.CDLL]:
@@ -83,17 +90,17 @@ def study_with_pin(tmp_path: Path) -> Path:
     ids=["a screen that is not there", "a platform that Qt has not", "no screen"],
 )
 def test_a_screen_that_cannot_be_reached_is_refused_in_one_sentence(
-    command: tuple[str, ...], screen: Mapping[str, str], said: str, tmp_path: Path, study_with_pin: Path
+    run: Run, command: tuple[str, ...], screen: Mapping[str, str], said: str, study_with_pin: Path
 ) -> None:
     name, *options = command
-    done = run(name, "--data", str(tmp_path / "data"), *options, "--study", str(study_with_pin), **screen)
+    done = run(name, "--data", str(study_with_pin.parent / "data"), *options, "--study", str(study_with_pin), **screen)
     first, *others = done.stderr.splitlines()
     assert (done.returncode, first.startswith(f"recollect: {said}")) == (2, True), done.stderr
     kept = ["recollect: the kiosk refused what it was given, so it is not started again"]
     assert others == (kept if "--supervise" in options else [])
 
 
-def test_a_rehearsal_without_a_screen_does_not_mind_one_that_cannot_be_reached(tmp_path: Path) -> None:
+def test_a_rehearsal_without_a_screen_does_not_mind_one_that_cannot_be_reached(run: Run, tmp_path: Path) -> None:
     study = tmp_path / "study.toml"
     study.write_text('stages = ["introduction", "game", "result"]\n[game]\nrows = 1\ncolumns = 2\n')
     done = run("rehearse", "--headless", "--data", str(tmp_path / "data"), "--study", str(study), DISPLAY=NOWHERE)
@@ -142,7 +149,7 @@ def test_a_check_says_what_to_install_and_does_not_praise_the_drawing(monkeypatc
         assert found.remedy.endswith("sudo apt-get install libxcb-cursor0")
 
 
-def test_a_check_of_a_screen_that_cannot_be_reached_says_which_one() -> None:
+def test_a_check_of_a_screen_that_cannot_be_reached_says_which_one(run: Run) -> None:
     done = run("_display", "screens", "0", DISPLAY=NOWHERE)
     assert (done.returncode, done.stderr) == (0, "")
     assert "cannot be reached" in done.stdout

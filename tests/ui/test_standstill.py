@@ -5,51 +5,67 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
 from kiosk.ui.screens.board import BoardScreen
 from kiosk.ui.simulated_visitor import UiTimeout
+from tests.forked import ROOT, LoadedProgram
 from tests.ui.conftest import Booth
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="what guards it cannot fork")
 
 
-def rehearsal(data: Path, wrong: str, *more: str) -> subprocess.Popen[str]:
-    """Return a rehearsal in which this is wrong with the first card."""
-    environment = {name: value for name, value in os.environ.items() if name != "NOTIFY_SOCKET"}
-    command = [sys.executable, "-m", "tests.ui.stuck_kiosk", wrong, *more]
-    return subprocess.Popen(
-        [*command, "rehearse", "--headless", "--data", str(data)],
-        env=environment | {"QT_QPA_PLATFORM": "offscreen"},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
+ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "NOTIFY_SOCKET"} | {
+    "QT_QPA_PLATFORM": "offscreen"
+}
+STUCK = "from runpy import run_module\nrun_module('tests.ui.stuck_kiosk', run_name='__main__')\n"
+
+Rehearse = Callable[..., subprocess.CompletedProcess[str]]
 
 
-def test_a_fault_ends_the_rehearsal_with_its_name_and_place(tmp_path: Path) -> None:
-    with rehearsal(tmp_path, "fault") as process:
-        told, said = process.communicate()
-    assert (process.returncode, told) == (1, "")
-    *_, last = said.splitlines()
+@pytest.fixture(scope="module")
+def rehearse() -> Iterator[Rehearse]:
+    """Provide what runs a rehearsal in which this is wrong with the first card."""
+    with LoadedProgram() as loaded:
+
+        def rehearse(data: Path, wrong: str) -> subprocess.CompletedProcess[str]:
+            arguments = (wrong, "rehearse", "--headless", "--data", str(data))
+            return loaded.run(arguments, ROOT, ENVIRONMENT, program=STUCK)
+
+        yield rehearse
+
+
+def test_a_fault_ends_the_rehearsal_with_its_name_and_place(rehearse: Rehearse, tmp_path: Path) -> None:
+    ended = rehearse(tmp_path, "fault")
+    assert (ended.returncode, ended.stdout) == (1, "")
+    *_, last = ended.stderr.splitlines()
     assert (
         "the rehearsal cannot go on: there was a fault in Recollect, KeyError: 'unicorn' (stuck_kiosk.py, line" in last
     )
 
 
 @pytest.mark.parametrize("wrong", ["with lock", "without lock"])
-def test_an_interface_that_stands_still_ends_the_rehearsal_in_words(tmp_path: Path, wrong: str) -> None:
-    with rehearsal(tmp_path, wrong) as process:
-        _, said = process.communicate()
-    assert process.returncode != 0
-    assert said.splitlines()[-1] == "recollect: the interface stood still for 1 s, so it was ended"
+def test_an_interface_that_stands_still_ends_the_rehearsal_in_words(
+    rehearse: Rehearse, tmp_path: Path, wrong: str
+) -> None:
+    ended = rehearse(tmp_path, wrong)
+    assert ended.returncode != 0
+    assert ended.stderr.splitlines()[-1] == "recollect: the interface stood still for 1 s, so it was ended"
 
 
 @pytest.mark.parametrize("wrong", ["with lock", "without lock"])
 def test_an_interface_that_stands_still_ends_when_it_is_asked_to(tmp_path: Path, wrong: str) -> None:
-    with rehearsal(tmp_path, wrong, "--slowly") as process:
+    command = [sys.executable, "-m", "tests.ui.stuck_kiosk", wrong, "--slowly"]
+    with subprocess.Popen(
+        [*command, "rehearse", "--headless", "--data", str(tmp_path)],
+        env=ENVIRONMENT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
         assert process.stderr is not None
         while "stuck" not in process.stderr.readline():
             assert process.poll() is None
