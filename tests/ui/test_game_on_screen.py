@@ -388,6 +388,22 @@ def test_while_one_card_is_up_and_the_helper_is_silent_the_screen_asks_for_a_sec
     assert not asked()
 
 
+@STILL
+def test_in_a_practice_the_helper_asks_for_a_second_card(app: App) -> None:
+    def said() -> set[str]:
+        return {str(i.property("text")) for i in items(app.window.contentItem()) if i.property("text")}
+
+    board, screens = app.screens.board, app.screens
+    board.deal(3, 4, 6, "animals", practice=True)
+    screens.kiosk.show("practice")
+    board.reveal(Position(0, 0), "cat")
+    assert "Now turn over a second card." in said()
+    assert "Now a second card" not in said()
+    screens.avatar.appear(present=False)
+    assert "Now turn over a second card." not in said()
+    assert "Now a second card" in said()
+
+
 @pytest.mark.parametrize("moves", [True], indirect=True)
 def test_snippets_of_the_feast_never_fall_in_one_line(app: App) -> None:
     """Of those that are seen at one time, no tenth of the height has a third."""

@@ -17,6 +17,8 @@ FocusScope {
     property bool prepares: false
     // Whether a sentence of the assistant stands on the screen.
     property bool said: false
+    // Whether the assistant's bubble asks for the second card.
+    property bool asks: false
     // Where the face begins that stands below the cards, in this item; 0 where none does.
     property real faceAt: 0
     // Asked of the board once, and not by every card.
@@ -58,6 +60,9 @@ FocusScope {
     readonly property real spare: Math.floor(height - 20 * Theme.unit - strip - numbers - footer - rows * widest) - 1
     readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
         + Math.max(upright && Theme.textSize > 1.15 ? 18 * Theme.unit : 0, Math.min(apart, spare), upright ? spare / 2 : 0)
+    // Where the cards themselves begin and end.
+    readonly property real cardsBegin: table.x + margin * cell
+    readonly property real cardsEnd: table.x + table.width - margin * cell
     // Where the words about the game stand: above the tray, or beside it in the same line.
     readonly property real wordsAt: 12 * Theme.unit
     readonly property real wordsHigh: upright ? wordsLine - 12 * Theme.unit - wordsApart : tray.height
@@ -128,7 +133,7 @@ FocusScope {
     Rectangle {
         id: practice
         visible: view.practises
-        x: heads ? table.x + view.inset : Theme.gap
+        x: heads ? table.x + view.inset : !view.broad && view.above <= view.cardsEnd - view.cardsBegin ? view.cardsBegin : Theme.gap
         // Whether everything above the cards begins and ends with them.
         readonly property bool heads: view.upright && width + progress.implicitWidth + (view.skipsBelow ? 0 : skip.width + Theme.gap) + Theme.gap <= table.width - 2 * view.inset
         y: view.broad ? table.y : view.wordsAt + (view.wordsHigh - height) / 2
@@ -164,7 +169,8 @@ FocusScope {
         id: moves
         // Nothing counts in a practice.
         visible: !view.practises
-        x: view.broad ? Theme.gap : table.x + table.width - width - view.inset
+        // On a wide screen the tray comes last, so that these words do not run into what stands beside the cards.
+        x: view.broad ? Theme.gap : view.upright ? table.x + table.width - width - view.inset : progress.x + progress.width + Theme.gap
         y: view.broad ? progress.y + progress.height + 0.5 * Theme.gap : view.wordsAt
         width: view.broad ? view.side - Theme.gap : implicitWidth
         height: view.broad ? implicitHeight : view.wordsHigh
@@ -176,10 +182,12 @@ FocusScope {
     }
     Tray {
         id: tray
-        x: view.broad ? view.width - view.side : view.upright ? table.x + view.inset : progress.x + progress.width + Theme.gap
+        x: view.broad ? view.width - view.side : view.upright ? table.x + view.inset
+         : view.practises ? progress.x + progress.width + Theme.gap : moves.x + moves.width + Theme.gap
         y: view.broad ? table.y : view.upright ? view.wordsAt + view.wordsLine : 12 * Theme.unit
         width: view.broad ? view.side - Theme.gap : view.upright ? table.width - 2 * view.inset : Math.max(0, end - x - Theme.gap)
-        readonly property real end: !view.practises ? moves.x : view.skipsBelow ? view.width : skip.x
+        // Its shelf ends with the cards.
+        readonly property real end: !view.practises ? view.cardsEnd + Theme.gap - 8 * Theme.unit : view.skipsBelow ? view.width : skip.x
         height: view.broad ? table.height : view.upright ? view.lines * view.shelfSlot : view.strip - 8 * Theme.unit
         places: view.pairs
         spreads: view.upright
@@ -194,7 +202,7 @@ FocusScope {
         id: pill
         objectName: "pill"
         // What comes next, until the assistant has something to say about it.
-        readonly property bool asksSecond: view.board.oneUp && view.open && !view.marks && !view.said
+        readonly property bool asksSecond: view.board.oneUp && view.open && !view.marks && !view.said && !view.asks
         readonly property real under: cards.y + cards.height + (view.upright ? 20 : 8) * Theme.unit
         x: Math.round(Math.max(0, Math.min(view.width - width, view.middle - width / 2)))
         // In the middle between cards and face, where no sentence stands there.
@@ -398,11 +406,21 @@ FocusScope {
             }
             onMissedChanged: if (missed && Theme.motion > 0) sigh.restart()
 
+            // A rim of light around the last pair, as wide as the gap to its neighbours.
+            Rectangle {
+                visible: place.proud > 0
+                anchors.centerIn: parent
+                width: 1.08 * parent.width * (1 + 0.09 * place.cheer)
+                height: width
+                opacity: place.proud
+                radius: width * 0.13
+                color: Theme.amber
+            }
             Rectangle {
                 visible: place.rest > 0
                 anchors.centerIn: parent
                 // By its size: corners that are drawn larger by a scale look ragged.
-                width: 0.9 * parent.width * (1 + 0.24 * place.proud) * (1 + 0.09 * place.cheer)
+                width: 0.9 * parent.width * (1 + 0.14 * place.proud) * (1 + 0.09 * place.cheer)
                 height: width
                 opacity: place.rest * place.frame
                 radius: width * 0.12
@@ -432,7 +450,7 @@ FocusScope {
                 // Closed cards step back while a tap would not count, unless they are meant.
                 opacity: view.speaking && !place.up && !place.marked ? Theme.held : 1
                 Behavior on opacity { NumberAnimation { duration: Theme.motion } }
-                scale: (tap.pressed ? 0.95 : 1) * (1 + 0.07 * lift) * (1 - 0.14 * place.rest + 0.26 * place.proud) * (1 + 0.16 * place.forward) * (1 + 0.09 * place.cheer)
+                scale: (tap.pressed ? 0.95 : 1) * (1 + 0.07 * lift) * (1 - 0.14 * place.rest + 0.15 * place.proud) * (1 + 0.16 * place.forward) * (1 + 0.09 * place.cheer)
             }
             // These two are no pair; in a while they close again.
             Rectangle {

@@ -103,7 +103,8 @@ Item {
         at: 4
         objectName: "control-say-again"
         words: corner.words["control-say-again"]
-        drawing: "M18.5 8 A8 8 0 1 0 20 12.5 M19.5 3.5 V8.5 H14.5"
+        // A speech bubble, and in it an arrow that turns back.
+        drawing: "M4 1 H20 A3 3 0 0 1 23 4 V16 A3 3 0 0 1 20 19 H11.5 L6.5 23.5 V19 H4 A3 3 0 0 1 1 16 V4 A3 3 0 0 1 4 1 Z M15.8 7.6 A4.6 4.6 0 1 0 16.6 10.6 M16.4 4.4 V8 H12.8"
         onClicked: corner.kiosk.sayAgain()
     }
 }

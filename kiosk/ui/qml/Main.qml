@@ -258,6 +258,7 @@ Window {
                 upright: !root.wide
                 prepares: root.prepares
                 said: helper.says
+                asks: helper.asks
                 onWon: if (!root.board.practice) feast.begin()
                 // How a practice goes is clear by now.
                 onFirstFound: if (root.board.practice && !root.board.speaking) helper.fade()
@@ -354,7 +355,10 @@ Window {
         leads: root.asking || !root.speaks
         hushed: root.asking && !root.wide
         readonly property bool done: boardPage.visible && boardPage.view.last.length > 0 && !root.board.practice
-        readonly property string turn: done ? root.words["game-found"]
+        // How a move goes on is said in the practice; in the game a line under the cards says it.
+        readonly property bool second: boardPage.visible && root.board.practice && root.board.oneUp && root.board.open && !boardPage.view.marks
+        readonly property bool asks: second && aside !== "" && !says
+        readonly property string turn: second ? root.words["practice-second"] : done ? root.words["game-found"]
             : boardPage.visible && root.board.untouched && root.board.open ? root.words["game-begin"] : ""
         aside: !root.avatar.present || root.whole ? "" : !root.wide ? (root.kiosk.asks === "" && !root.kiosk.asksStillThere ? turn : "")
              : root.kiosk.asksStillThere ? root.words["still-there-line"]
@@ -391,7 +395,7 @@ Window {
         opacity: corner.opacity
         readonly property bool aside: root.wide && !root.whole
         // Beside the place of the button that comes and goes, so that they stay where they are.
-        x: !aside ? Theme.gap : corner.atLeft ? 2.2 * Theme.gap + corner.fullWidth : corner.x + corner.width - corner.fullWidth - 1.2 * Theme.gap - width
+        x: !aside ? Theme.gap : corner.atLeft ? 2.2 * Theme.gap + corner.fullWidth : corner.x + corner.width - corner.fullWidth - 0.7 * Theme.gap - width
         y: aside ? corner.y + (corner.step - corner.spacing - height) / 2 : root.room - height - Theme.gap
     }
     Feast {

@@ -38,6 +38,7 @@ FIXED = (
     "practice-skip",
     "game-begin",
     "game-second",
+    "practice-second",
     "game-found",
     "result-title",
     "result-pairs-label",
