@@ -116,12 +116,8 @@ def folder() -> str:
         # Not --strip: numpy's linear algebra does not survive it.
         *(["--hide-console", "hide-early"] if os.name == "nt" else []),
     ]
-    command = [
-        sys.executable,
-        str(ROOT / "packaging" / "quick_scan.py"),
-        *options,
-        str(ROOT / "packaging" / "frozen.py"),
-    ]
+    here = ROOT / "packaging"
+    command = [sys.executable, str(here / "run_pyinstaller.py"), *options, str(here / "frozen.py")]
     done = subprocess.run(command, cwd=ROOT, check=False)
     if done.returncode:
         raise BuildFailed(f"PyInstaller ended with exit code {done.returncode}.")
