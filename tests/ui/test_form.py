@@ -13,6 +13,7 @@ from kiosk.assistance.keyboards import key_rows
 from kiosk.config import ASSETS
 from kiosk.experiment.items import NOT_APPLICABLE, Response
 from kiosk.experiment.questionnaire import Item, Questionnaire
+from kiosk.ui.screens.questionnaire import kept_together
 from kiosk.ui.simulated_visitor import UiDriver, find_item, item_centre
 from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth
@@ -63,11 +64,25 @@ def press(booth: Booth, *keys: Qt.Key) -> None:
         booth.press(key)
 
 
+@pytest.mark.parametrize(
+    ("text", "kept"),
+    [
+        ("when I would be unsure", "when I~would be unsure"),
+        ("lui e i suoi", "lui e~i~suoi"),
+        ("the helper's hints", "the helper's hints"),
+        ("you and I", "you and I"),
+    ],
+)
+def test_a_word_of_one_letter_stays_with_the_next_word(text: str, kept: str) -> None:
+    assert kept_together(text) == kept.replace("~", "\N{NO-BREAK SPACE}")
+
+
 def shown(booth: Booth, name: str, text: str) -> bool:
     """Whether a text is to be seen within an item."""
 
     def within(item: QQuickItem) -> bool:
-        return item.isVisible() and (item.property("text") == text or any(within(child) for child in item.childItems()))
+        said = str(item.property("text") or "").replace("\N{NO-BREAK SPACE}", " ")
+        return item.isVisible() and (said == text or any(within(child) for child in item.childItems()))
 
     return within(booth.item(name))
 

@@ -182,7 +182,7 @@ def seen(window: Window) -> dict[str, bool]:
     found: dict[str, bool] = {}
     for item in every(window.shown.contentItem()):
         if item.metaObject().indexOfProperty("textFormat") >= 0 and item.property("text"):
-            text = str(item.property("text"))
+            text = str(item.property("text")).replace("\N{NO-BREAK SPACE}", " ")
             found[text] = found.get(text, True) and text_format(item) == PLAIN
     return found
 

@@ -18,6 +18,7 @@ from kiosk.config import ASSETS, Settings
 from kiosk.experiment.items import Likert, Single, Slider
 from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.study.loader import read_study
+from kiosk.ui.screens.questionnaire import kept_together
 from kiosk.ui.simulated_visitor import find_item, lay_out
 from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
 
@@ -128,7 +129,8 @@ def test_the_helpers_sentence_begins_at_the_right(window: Window) -> None:
 def test_a_question_begins_at_the_right_edge(window: Window) -> None:
     show(window, "form", RATED, CHOSEN)
     card = item(window, f"item-{RATED.id}")
-    question = next(text for text in parts(card, "QQuickText") if text.property("text") == RATED.text["en"])
+    asked = kept_together(RATED.text["en"])
+    question = next(text for text in parts(card, "QQuickText") if text.property("text") == asked)
     context = qmlContext(question)
     assert context is not None
     # As in other tests: the stubs know the value alone, and it comes with whether it is undefined.

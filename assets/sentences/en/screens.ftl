@@ -139,6 +139,7 @@ form-range = from { $lowest } to { $highest }
 form-none = Nothing is chosen yet
 form-touch = Touch the line
 form-type = Tap here to type
+form-number = Type here
 form-less = One less
 form-more = One more
 

@@ -43,18 +43,21 @@ PageFrame {
         && form.items.every(item => !rates(item) || halves(item.left) && halves(item.right))
     // Whether there is room for each in one line, under the middles of the ends of its scale.
     readonly property bool lined: !alone && !dense && Theme.textSize <= 1.15 && (wider || upright) && lines()
-    // How wide they then are, and those at the other end.
+    // How large these words are, and how wide then; those at the other end, too.
+    readonly property real endSize: Theme.size(lined ? 30 : 28)
     // The scale stands in the middle of an upright card, and ends where a row of a wide page ends.
-    readonly property real ends: lined ? upright ? Math.max(widest("left"), widest("right")) : widest("left") : !halved ? 0 : own ? 6 * Theme.size(26) : upright ? 6 * Theme.size(28) : 0
+    readonly property real ends: lined ? upright ? Math.max(widest("left"), widest("right")) : widest("left") : halved && (own || upright) ? 6 * endSize : 0
     readonly property real otherEnds: lined && !upright ? widest("right") : ends
     // How high the scale of a row is with the words for its ends, and how much of the row is above and below it.
-    readonly property real scaleHeight: lined ? 88 * Theme.unit + 1.37 * Theme.size(26) : halved ? 84 * Theme.unit + 2.36 * Theme.size(26) : 98 * Theme.unit + 1.37 * Theme.size(28)
-    readonly property real rowMargin: (lined ? 24 : halved ? 15 : 18) * Theme.unit
+    readonly property real scaleHeight: lined ? 88 * Theme.unit + 1.37 * endSize : halved ? 84 * Theme.unit + 2.36 * endSize : 98 * Theme.unit + 1.37 * Theme.size(28)
+    readonly property real rowMargin: (lined ? 22 : halved ? 14 : 18) * Theme.unit
     function rates(item: var): bool {
         return ["likert", "differential", "pictures", "slider"].includes(item.kind)
     }
     function widest(end: string): real {
-        return Math.max(112 * Theme.unit, ...form.items.filter(rates).map(item => 1.03 * thin.advanceWidth(item[end]) * Theme.size(upright ? 28 : 26) / 100))
+        const wide = Math.max(112 * Theme.unit, ...form.items.filter(rates).map(item => 1.03 * thin.advanceWidth(item[end]) * Theme.size(30) / 100))
+        // In steps, so that the scales of pages with almost the same words stand at one place.
+        return Math.ceil(wide / (24 * Theme.unit)) * 24 * Theme.unit
     }
     function lines(): bool {
         const wide = upright ? column - 2.4 * Theme.gap : (0.96 - textShare) * (column - 2.4 * Theme.gap)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -30,10 +31,21 @@ from kiosk.experiment.items import (
 from kiosk.experiment.questionnaire import Item
 from kiosk.ui.input import before, fitting
 
+_log = logging.getLogger(__name__)
+
+_LONE_LETTER = re.compile(r"(?<!\S)([^\W\d_]) (?=\S)")
+"""A word of one letter, such as "I" or the Italian "e", and the space after it."""
+
+
+def kept_together(text: str) -> str:
+    """Return a text whose words of one letter stay on the line of the word after them."""
+    return _LONE_LETTER.sub("\\1\N{NO-BREAK SPACE}", text)
+
 
 def item_view(item: Item, catalogue: Catalogue, scale: Callable[[str], Path]) -> dict[str, Any]:
     """Return an item as QML shows it; ``scale`` tells where the pictures of a scale are."""
     shown: dict[str, Any] = {"id": item.id, "kind": item.kind, "text": in_language(item.text, catalogue.language)}
+    shown["shown"] = kept_together(shown["text"])
     shown["required"] = not isinstance(item, TextPage) and item.required is True
     shown |= item.view(catalogue.language) | {
         "source": QUrl.fromLocalFile(str(item.qml)).toString() if item.qml else ""
@@ -48,8 +60,6 @@ def item_view(item: Item, catalogue: Catalogue, scale: Callable[[str], Path]) ->
         shown["wrong"] = catalogue.text("form-wrong-number", lowest=item.lowest, highest=item.highest)
     return shown
 
-
-_log = logging.getLogger(__name__)
 
 QML_IMPORT_NAME = "Recollect"
 QML_IMPORT_MAJOR_VERSION = 1

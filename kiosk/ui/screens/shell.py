@@ -58,6 +58,7 @@ FIXED = (
     "form-none",
     "form-touch",
     "form-type",
+    "form-number",
     "form-less",
     "form-more",
     "keyboard-shift",

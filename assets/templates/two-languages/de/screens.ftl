@@ -139,6 +139,7 @@ form-range = von { $lowest } bis { $highest }
 form-none = Noch nichts gewählt
 form-touch = Tippe auf die Linie
 form-type = Zum Schreiben hier tippen
+form-number = Hier tippen
 form-less = Eins weniger
 form-more = Eins mehr
 

@@ -26,6 +26,8 @@ Item {
     property real otherEnds: ends
     // Whether each of them has one line there.
     property bool lined: false
+    // How large these words are there.
+    property real endSize: Theme.size(28)
     // How high a scale is with them, and how much of its row is above and below it.
     property real scaleHeight: 0
     property real rowMargin: 0
@@ -101,7 +103,7 @@ Item {
     // The words for the ends stand above the first card of a table.
     readonly property real head: beside && headed && !own ? ((way.item as PointScale)?.words ?? 0) + 8 * Theme.unit : 0
 
-    // The cards of a page are as high, with their scales at one place, and a shorter text in the middle of its room.
+    // The cards of a page are as high, with their scales at one place, and every text right above its own.
     readonly property real lacking: beside ? 0 : Math.max(0, leastLines - question.lineCount) * question.implicitHeight / Math.max(1, question.lineCount)
     height: head + content.height + 2 * margin
 
@@ -130,13 +132,14 @@ Item {
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.lacking / 2
+                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.lacking
                 width: box.beside ? box.textShare * asked.width : box.inline ? asked.width - 470 * Theme.unit : asked.width
                 spacing: box.inline ? 0 : content.spacing
                 Balanced {
                     id: question
                     width: parent.width
-                    text: box.item.text
+                    text: box.item.shown
+                    Accessible.name: box.item.text
                     font {
                         pixelSize: box.item.kind === "page" ? Theme.size(36) : box.alone ? Theme.heading
                             : box.beside || (box.item.kind === "slider" && box.rowText > 0) ? box.rowText
@@ -246,6 +249,7 @@ Item {
             ends: box.ends
             otherEnds: box.otherEnds
             lined: box.lined
+            endSize: box.endSize
             lift: box.own ? 0 : box.margin + asked.middle - size / 2 + 8 * Theme.unit
             item: box.item.id
             label: box.item.text
@@ -269,6 +273,7 @@ Item {
             ends: box.ends
             otherEnds: box.otherEnds
             lined: box.lined
+            endSize: box.endSize
             item: box.item.id
             label: box.item.text
             lowest: box.item.lowest
@@ -317,6 +322,7 @@ Item {
             pattern: box.item.pattern
             less: box.words["form-less"]
             more: box.words["form-more"]
+            hint: box.words["form-number"]
             onTyped: text => box.form.draft(box.item.id, text)
             onDone: box.done()
             onEntered: field => box.entered(field)

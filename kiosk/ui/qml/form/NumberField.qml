@@ -18,6 +18,7 @@ Row {
     required property string pattern    // what may stand in the field
     required property string less
     required property string more
+    required property string hint       // what there is to do, while it is empty
     // Whether it stands beside its question, which then says what it may be.
     property bool inline: false
     property alias text: field.text
@@ -91,14 +92,13 @@ Row {
         objectName: `number-${number.item}`
         focus: true
         label: `${number.label} ${number.range}`
-        // A place for a number, and none that could be taken for an answer.
-        hint: "–"
+        hint: number.hint
         Accessible.description: ""
         digits: true
         form: number.form
         minus: number.minus
         // As wide as the longest number; digits of another script may be wider still.
-        width: Math.max(190 * Theme.unit * Theme.textSize, Math.max(metrics.advanceWidth(number.widest), contentWidth) + leftPadding + rightPadding + 8 * Theme.unit)
+        width: Math.max(228 * Theme.unit * Theme.textSize, Math.max(metrics.advanceWidth(number.widest), contentWidth) + leftPadding + rightPadding + 8 * Theme.unit)
         height: 1.37 * Theme.body + 32 * Theme.unit
         topPadding: 2 * Theme.unit
         bottomPadding: 2 * Theme.unit

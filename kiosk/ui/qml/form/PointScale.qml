@@ -28,6 +28,8 @@ Item {
     property real otherEnds: ends
     // Whether each of them has one line there.
     property bool lined: false
+    // How large they are where they stand so.
+    property real endSize: Theme.size(28)
     // How far above the points they stand then.
     property real lift: 0
     signal chosen(int point)
@@ -70,7 +72,7 @@ Item {
         text: scale.leftEnd
         horizontalAlignment: scale.centred ? Text.AlignHCenter : Text.AlignLeft
         lineHeight: scale.centred ? 0.86 : 1
-        font.pixelSize: scale.ends > 0 && !scale.alone ? Theme.size(scale.own ? 26 : 28) : scale.own ? Theme.size(28) : scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small
+        font.pixelSize: scale.ends > 0 && !scale.alone ? scale.endSize : scale.own ? Theme.size(28) : scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small
         wrapMode: Text.Wrap
         color: Theme.ink
     }
@@ -84,7 +86,7 @@ Item {
         text: scale.rightEnd
         horizontalAlignment: scale.centred ? Text.AlignHCenter : scale.below ? Text.AlignRight : Text.AlignLeft
         lineHeight: lowest.lineHeight
-        font.pixelSize: scale.ends > 0 && !scale.alone ? Theme.size(scale.own ? 26 : 28) : scale.own ? Theme.size(28) : scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small
+        font.pixelSize: scale.ends > 0 && !scale.alone ? scale.endSize : scale.own ? Theme.size(28) : scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small
         wrapMode: Text.Wrap
         color: Theme.ink
     }

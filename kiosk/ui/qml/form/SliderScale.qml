@@ -28,14 +28,19 @@ Item {
     property real otherEnds: ends
     // Whether each of them has one line there.
     property bool lined: false
+    // How large the words for its ends are where they stand so.
+    property real endSize: Theme.size(28)
     signal chosen(int value)
 
     readonly property int range: highest - lowest
     readonly property int leap: Math.max(1, Math.round(range / 10))
     readonly property real rail: (own ? lined ? 84 : ends > 0 ? 80 : 92 : dense ? 62 : large ? lined ? 112 : ends > 0 ? 108 : 126 : level ? 90 : 100) * Theme.unit
-    readonly property real tick: (dense ? 18 : 24) * Theme.unit
     // The handle, with room around it in the line.
     readonly property real thickness: 0.78 * rail
+
+    // How high the line itself is, and what there is to do above it needs beyond the handle's room.
+    readonly property real track: (dense ? 18 : 26) * Theme.unit
+    readonly property real above: own ? 0 : Math.max(0, hint.height + track / 2 + 2 * Theme.unit - rail / 2)
 
     readonly property real words: Math.max(lower.height, upper.height)
     readonly property real apart: (centred ? 4 : own ? 6 : large ? 4 : 7) * Theme.unit
@@ -50,23 +55,23 @@ Item {
     readonly property real leftRoom: below ? 0 : Math.min(lower.implicitWidth, most) + Theme.gap
     readonly property real rightRoom: below ? 0 : Math.min(upper.implicitWidth, most) + Theme.gap
 
-    height: below ? slider.height + apart + words : Math.max(slider.height, words)
+    height: below ? above + slider.height + apart + words : Math.max(above + slider.height, words)
 
     PlainText {
         id: lower
-        y: scale.below ? slider.height + scale.apart : (scale.height - height) / 2
+        y: scale.below ? slider.y + slider.height + scale.apart : slider.y + (slider.height - height) / 2
         x: Theme.across(0, width, scale.width)
         width: scale.centred ? scale.ends : scale.below ? slider.width / 2 - Theme.gap : scale.leftRoom - Theme.gap
         text: scale.leftEnd
         horizontalAlignment: scale.centred ? Text.AlignHCenter : Text.AlignLeft
         lineHeight: scale.centred ? 0.86 : 1
-        font.pixelSize: Theme.size(scale.ends > 0 && !scale.alone ? scale.own ? 26 : 28 : scale.own ? 28 : 30)
+        font.pixelSize: scale.ends > 0 && !scale.alone ? scale.endSize : Theme.size(scale.own ? 28 : 30)
         wrapMode: Text.Wrap
         color: Theme.ink
     }
     PlainText {
         id: upper
-        y: scale.below ? lower.y : (scale.height - height) / 2
+        y: scale.below ? lower.y : slider.y + (slider.height - height) / 2
         x: Theme.across(scale.centred ? scale.width - width : scale.leftRoom + slider.width + scale.rightRoom - width, width, scale.width)
         width: scale.centred ? scale.otherEnds : scale.below ? lower.width : scale.rightRoom - Theme.gap
         text: scale.rightEnd
@@ -88,7 +93,7 @@ Item {
         }
         objectName: `slider-${scale.item}`
         x: Theme.across(scale.leftRoom + scale.inset, width, scale.width)
-        y: scale.below ? 0 : (scale.height - height) / 2
+        y: scale.below ? scale.above : (scale.height - height + scale.above) / 2
         // On a page of several, its ends stand at the same edges as those of the points.
         width: scale.alone ? Math.min(900 * Theme.unit, scale.width) : scale.width - scale.leftRoom - scale.rightRoom - scale.inset - scale.otherInset
         height: scale.rail
@@ -129,26 +134,28 @@ Item {
             color: "transparent"
             // Where the middle of the handle can be.
             readonly property real inset: slider.leftPadding + scale.thickness / 2
+            // Its first and last mark, where the scale ends, stand a little within its round ends.
             Rectangle {
-                x: groove.inset
+                x: groove.inset - height / 2
                 y: (scale.rail - height) / 2
-                width: slider.width - 2 * groove.inset
-                height: (scale.dense ? 6 : 10) * Theme.unit
+                width: slider.width - 2 * x
+                height: scale.track
                 radius: height / 2
-                color: Theme.sea
+                color: Theme.white
+                border { color: Theme.sea; width: 3 * Theme.unit }
             }
-            // A tenth of the way each, or a step where there are fewer; longer at the ends and in the middle.
+            // A tenth of the way each, or a step where there are fewer; longer in the middle.
             Repeater {
                 id: ticks
                 model: Math.min(10, scale.range) + 1
                 Rectangle {
                     required property int index
-                    readonly property bool end: index === 0 || index === ticks.model - 1 || 2 * index === ticks.model - 1
+                    readonly property bool half: 2 * index === ticks.model - 1
                     readonly property real middle: groove.inset + index / (ticks.model - 1) * (slider.width - 2 * groove.inset)
                     x: middle - width / 2
                     y: (scale.rail - height) / 2
-                    width: (end ? 8 : 4) * Theme.unit
-                    height: (end ? 1.9 : 1.1) * scale.tick
+                    width: (half ? 5 : 3) * Theme.unit
+                    height: half ? scale.track : 0.38 * scale.track
                     radius: width / 2
                     color: Theme.sea
                 }
@@ -171,23 +178,29 @@ Item {
         }
     }
     // As long as nothing is chosen there is no handle: one that stood there would suggest an answer. What there is to do
-    // stands between the ends; in the line where they stand beside it, or leave no room.
-    Rectangle {
-        visible: hint.visible && !hint.beneath
-        anchors { fill: hint; leftMargin: -0.5 * Theme.gap; rightMargin: -0.5 * Theme.gap }
-        color: Theme.white
-    }
+    // stands above the line: between the words for its ends it would name the middle.
     PlainText {
         id: hint
         objectName: `touch-${scale.item}`
-        readonly property real between: scale.centred ? scale.width - 2 * Math.max(scale.ends, scale.otherEnds) : slider.width - 2 * Math.max(lower.contentWidth, upper.contentWidth)
-        readonly property bool beneath: scale.below && implicitWidth + 2 * Theme.gap <= between
+        readonly property real sign: 1.25 * font.pixelSize
         visible: !scale.answered && !slider.pressed
         x: slider.x + (slider.width - width) / 2
-        y: beneath ? lower.y : slider.y + (slider.height - height) / 2
-        width: implicitWidth
+        y: slider.y + (slider.height - scale.track) / 2 - height - 5 * Theme.unit
+        width: Math.min(implicitWidth, slider.width)
+        leftPadding: Theme.mirrored ? 0 : sign
+        rightPadding: Theme.mirrored ? sign : 0
         text: scale.touch
         font.pixelSize: scale.level ? Theme.small : lower.font.pixelSize
-        color: Theme.faintInk
+        color: Theme.ink
+        // A hand whose finger points at the line.
+        Drawing {
+            x: Theme.across((hint.sign - width) / 2 - 4 * Theme.unit, width, hint.width)
+            y: (hint.height - height) / 2
+            scale: 1.05 * hint.font.pixelSize / 24
+            rotation: 180
+            ink: Theme.sea
+            path: "M8.5 13.5 V4.3 A1.8 1.8 0 0 1 12.1 4.3 V11 M12.1 9.8 A1.8 1.8 0 0 1 15.7 9.8 V11.5 M15.7 10.9 A1.8 1.8 0 0 1 19.3 10.9 V15.5 "
+                + "A6.2 6.2 0 0 1 13.1 21.7 H12.6 A6.2 6.2 0 0 1 7.6 19.2 L4.4 15.2 A1.7 1.7 0 0 1 7 13 L8.5 14.6"
+        }
     }
 }

@@ -74,18 +74,16 @@ TextField {
     }
 
     Text {
-        anchors { fill: parent; leftMargin: field.leftPadding; rightMargin: field.rightPadding }
+        anchors { fill: parent; leftMargin: (field.digits ? 0.6 : 1) * field.leftPadding; rightMargin: anchors.leftMargin }
         visible: field.length === 0 && field.preeditText === ""
         textFormat: Text.PlainText
         text: field.hint
         horizontalAlignment: field.digits ? Text.AlignHCenter : undefined
-        font.pixelSize: field.digits ? field.font.pixelSize : Theme.body
+        font.pixelSize: field.digits ? Theme.size(30) : Theme.body
         fontSizeMode: Text.HorizontalFit
         minimumPixelSize: Theme.size(24)
         color: Theme.faintInk
         verticalAlignment: Text.AlignVCenter
-        // A dash stands lower than digits.
-        bottomPadding: field.digits ? 0.16 * font.pixelSize : 0
         Accessible.ignored: true
     }
     background: Rectangle {
