@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
 from kiosk import UserInputError
 from kiosk.config import Settings
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Event
-from kiosk.experiment.outcomes import Stage, Status
+from kiosk.experiment.events import Event, WorldEvent
+from kiosk.experiment.outcomes import SessionKind, Stage, Status
 from kiosk.experiment.replay import first_difference, replay_events
 from kiosk.experiment.transitions import BEFORE_DECIDING, InvalidTransition
 from kiosk.store.queries import open_repository
-from kiosk.store.recorder import Recorder
+from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.snapshot import InterruptedSession, read_interrupted_session
 from kiosk.store.verify import verify
 from kiosk.ui.app import App
@@ -49,15 +51,49 @@ class Until(Rehearsal):
             super()._do_what_comes_next()
 
 
-def cut_off(data: Path, stage: Stage, qtbot: QtBot, *, crash: bool) -> None:
-    """Leave a session behind in this stage: by a crash, or by closing the kiosk."""
+@dataclass(frozen=True)
+class Played:
+    """A session that was played to its end, and what it followed."""
+
+    provenance: Provenance
+    events: list[Event]
+
+    def cut_off(self, data: Path, stage: Stage) -> None:
+        """Leave behind what a process leaves that is killed in this stage: no word of the end."""
+        entered = next(
+            number
+            for number, event in enumerate(self.events)
+            if isinstance(event, happened.StageEntered) and event.stage is stage
+        )
+        # What follows from the event that led there was stored with it.
+        end = next(
+            number for number, event in enumerate(self.events) if number > entered and isinstance(event, WorldEvent)
+        )
+        with Recorder(data) as recorder:
+            recorder.begin(self.provenance, self.events[:end])
+        with Recorder(data):
+            pass
+
+
+@pytest.fixture(scope="module")
+def played(qapp: QGuiApplication, tmp_path_factory: pytest.TempPathFactory) -> Played:  # noqa: ARG001 - Qt is there
+    """Return a session that nothing cut off."""
+    data = tmp_path_factory.mktemp("played")
+    with headless(SMALL, data, mode=HALF) as app:
+        Rehearsal(app, 1).run()
+    with open_repository(data) as stored:
+        followed = Provenance(
+            stored.plan(1), stored.seed(1), stored.session(1).embodiment, "a test", kind=SessionKind.SIMULATED
+        )
+        return Played(followed, stored.story(1))
+
+
+def close_in(data: Path, stage: Stage, qtbot: QtBot) -> None:
+    """Leave a session behind in this stage by closing the kiosk."""
     with headless(SMALL, data, mode=HALF) as app:
         qtbot.waitUntil(app.window.isExposed)
         Until(app, stage).run()
         assert app.runner.stage is stage
-        if crash:
-            # What a killed process leaves: no word of the end.
-            app.runner._session = None
     with Recorder(data):
         pass
 
@@ -72,9 +108,12 @@ def read(data: Path) -> InterruptedSession:
 @pytest.mark.parametrize("crash", [True, False], ids=["killed", "closed"])
 @pytest.mark.parametrize("stage", RESUMABLE, ids=lambda stage: stage.value)
 def test_a_session_goes_on_from_the_start_of_its_stage_to_its_end(
-    stage: Stage, tmp_path: Path, qtbot: QtBot, *, crash: bool
+    stage: Stage, played: Played, tmp_path: Path, qtbot: QtBot, *, crash: bool
 ) -> None:
-    cut_off(tmp_path, stage, qtbot, crash=crash)
+    if crash:
+        played.cut_off(tmp_path, stage)
+    else:
+        close_in(tmp_path, stage, qtbot)
     cut = read(tmp_path)
     with headless(SMALL, tmp_path, mode=HALF) as app:
         qtbot.waitUntil(app.window.isExposed)
@@ -94,8 +133,8 @@ def test_a_session_goes_on_from_the_start_of_its_stage_to_its_end(
     assert verify(tmp_path) == []
 
 
-def test_a_game_is_not_gone_on_with(tmp_path: Path, qtbot: QtBot) -> None:
-    cut_off(tmp_path, Stage.GAME, qtbot, crash=True)
+def test_a_game_is_not_gone_on_with(played: Played, tmp_path: Path, qtbot: QtBot) -> None:
+    played.cut_off(tmp_path, Stage.GAME)
     cut = read(tmp_path)
     with headless(SMALL, tmp_path, mode=HALF) as app:
         qtbot.waitUntil(app.window.isExposed)
