@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
+from threading import Thread
 from typing import TYPE_CHECKING
 
 from platformdirs import user_data_path
@@ -57,6 +59,19 @@ def code_commit() -> str:
     if _BUILT_FROM.is_file():
         return _BUILT_FROM.read_text("utf-8")
     return _git("describe", "--always", "--dirty", "--abbrev=40", "--exclude=*") or "released"
+
+
+def code_commit_beside() -> Callable[[], str]:
+    """Begin to look for the commit on a thread; returns what waits for the answer."""
+    found: list[str] = []
+    asking = Thread(target=lambda: found.append(code_commit()), daemon=True)
+    asking.start()
+
+    def wait() -> str:
+        asking.join()
+        return found[0]
+
+    return wait
 
 
 def code_made() -> datetime:

@@ -7,7 +7,7 @@ from pathlib import Path
 from random import SystemRandom
 from typing import Any
 
-from kiosk.cli.composition import check_pin, code_commit, read_settings
+from kiosk.cli.composition import check_pin, code_commit_beside, read_settings
 from kiosk.cli.log import log_into
 from kiosk.experiment.session_config import kind_of
 from kiosk.lazy_dataclass import dataclass
@@ -45,12 +45,13 @@ def open_kiosk(asked: Opening, beat: Callable[[], None], drawn: Callable[[], Non
 
     ``beat`` is called out of the event loop, and ``drawn`` once the kiosk's own first frame is on the screen.
     """
+    commit = code_commit_beside()
     prepared = read_study(read_settings(asked.study, asked.robot_host, asked.robot_port))
     check_robot(prepared.settings)
     if asked.unattended:
         check_pin(prepared.settings)
     chance = SystemRandom()
-    origin = RunContext(code_commit(), kind=kind_of(prepared.settings), seed=lambda: chance.getrandbits(SEED_BITS))
+    origin = RunContext(commit(), kind=kind_of(prepared.settings), seed=lambda: chance.getrandbits(SEED_BITS))
     mode = RunMode(WindowMode.WINDOW if asked.window else WindowMode.FULL_SCREEN)
     check_screen(mode.display)
     if asked.unattended:

@@ -6,9 +6,7 @@ import csv
 import io
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from difflib import get_close_matches
 from pathlib import Path
-from xml.parsers import expat
 
 from kiosk import UserInputError
 from kiosk.assistance.wording import CARD, Catalogue, card_message
@@ -135,6 +133,8 @@ class _SvgReader:
 
     def __init__(self) -> None:
         self._depth = 0
+        from xml.parsers import expat  # noqa: PLC0415 - for a study's own cards
+
         self._parser = expat.ParserCreate()
         self._parser.EntityDeclHandler = self._entity
         self._parser.StartElementHandler = self._begin
@@ -144,6 +144,8 @@ class _SvgReader:
 
     def fault(self, text: str) -> str | None:
         """Return what is wrong with a file of this text, with its line; None if nothing is."""
+        from xml.parsers import expat  # noqa: PLC0415 - as above
+
         try:
             self._parser.Parse(text, True)  # noqa: FBT003 - expat takes it by its place
         except _Refused as refused:
@@ -317,6 +319,8 @@ def _card(name: str, cards: Mapping[str, Path]) -> str | None:
 
 
 def _no_card(name: str, cards: Iterable[str]) -> str:
+    from difflib import get_close_matches  # noqa: PLC0415 - only a mistake needs it
+
     close = get_close_matches(name, list(cards), n=1)
     meant = f"; did you mean {close[0]!r}?" if close else ""
     return f"there is no picture {name!r} in the folder{meant}" if name else "the name of the card is missing"

@@ -237,6 +237,8 @@ class App:
         return None
 
     def _prepare(self) -> None:
+        # No screen came before this one, so no tap can be meant for another.
+        self.screens.kiosk.end_input_guard()
         catalogues = (plan.catalogue for plan in self.assigner.study.plans)
         self._preparation = Preparation(self._window.owner, steps_of(self.window, catalogues))
 

@@ -343,8 +343,9 @@ class EventLoop:
         if isinstance(self._clock, VirtualClock):
             ticking.timeout.connect(lambda jump=self._clock.jump: jump())
             ticking.start(0)
-        # A program that has set objects aside itself does not get them back from us.
-        gives_back = gc.get_freeze_count() == 0
+        # A program that has set objects aside itself does not get them back from us; one that has the collector off
+        # while it loads has done so, and counting them would take a moment.
+        gives_back = gc.isenabled() and gc.get_freeze_count() == 0
         if not isinstance(self._clock, VirtualClock):
             # What is there now stays for the day; walking all of it for garbage would cost the screen a frame or two.
             if gc.isenabled():

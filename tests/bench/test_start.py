@@ -65,6 +65,52 @@ FIRST_PICTURE = """
 """
 """The kiosk's own start; it ends once the picture is on the screen."""
 
+TAP = """
+    import os
+    import time
+    from PySide6.QtCore import QPointF, Qt, QTimer
+    from PySide6.QtTest import QTest
+    from kiosk.cli import opening
+    from kiosk.ui.screens.shell import KioskScreen
+
+    def find(item, name):
+        if item.objectName() == name:
+            return item
+        return next(filter(None, (find(child, name) for child in item.childItems())), None)
+
+    def tap(window):
+        button = find(window.contentItem(), "start-en")
+        place = button.mapToScene(QPointF(button.width() / 2, button.height() / 2)).toPoint()
+        wall, used = time.monotonic(), time.process_time()
+
+        def shown():
+            if pages:
+                print(time.process_time() - used, time.monotonic() - wall, flush=True)
+                os._exit(0)
+
+        pages.clear()
+        window.frameSwapped.connect(shown)
+        QTest.mouseClick(window, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, place)
+
+    def ready(window, call):
+        def drawn():
+            call()
+            QTimer.singleShot(0, lambda: tap(window))
+
+        after_first_frame(window, drawn)
+
+    def show(kiosk, page):
+        pages.append(page)
+        shows(kiosk, page)
+
+    pages = []
+    shows, KioskScreen.show = KioskScreen.show, show
+    after_first_frame, opening.after_first_frame = opening.after_first_frame, ready
+    from kiosk.cli.main import main
+    main()
+"""
+"""The kiosk's own start, and a tap on the start screen in the first moment in which it is taken."""
+
 EMPTY_COMMAND = """
     import click
 
@@ -156,6 +202,24 @@ def test_start_to_first_picture(benchmark: Any, tmp_path: Path) -> None:
 def test_start_to_ready_for_a_tap(benchmark: Any, tmp_path: Path) -> None:
     """From the start of the process until the start screen is drawn and can be tapped."""
     beside(benchmark, lambda: until_ready(tmp_path), partial(whole, python(EMPTY_WINDOW)))
+
+
+@pytest.mark.benchmark(group="start of the kiosk")
+def test_first_tap_to_the_next_page(benchmark: Any, tmp_path: Path) -> None:
+    """From a tap in the first moment in which it is taken until the next page is drawn."""
+    answers: list[Cost] = []
+
+    def tap() -> None:
+        command = python(TAP, "run", "--data", str(tmp_path))
+        told = subprocess.run(
+            command, env=os.environ | OFFSCREEN, capture_output=True, text=True, check=True, timeout=LONG_S
+        )
+        answers.append(Cost(*map(float, told.stdout.split())))
+
+    benchmark.pedantic(tap, rounds=ROUNDS, warmup_rounds=1)
+    for what in ("processor", "wall"):
+        benchmark.extra_info[what] = {"ms": round(median(getattr(each, what) for each in answers[1:]) * MS_PER_SECOND)}
+    print(f"\n{benchmark.name}: {benchmark.extra_info}")  # noqa: T201 - a benchmark is read on the terminal
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no Unix sockets")

@@ -144,6 +144,13 @@ def test_every_page_is_made_before_a_visitor_comes_to_it(qtbot: QtBot, tmp_path:
         assert booth.screen == "attract"
 
 
+def test_the_first_start_screen_takes_a_tap_before_any_page_is_made(qtbot: QtBot, tmp_path: Path) -> None:
+    with headless(short(), tmp_path, mode=RunMode(WindowMode.NOWHERE, ClockMode.WALL)) as app:
+        assert not app.screens.kiosk.takes_input
+        qtbot.waitUntil(lambda: bool(app.window.property("prepares")))
+        assert app.screens.kiosk.takes_input
+
+
 def test_larger_text_is_larger_and_still_inside(make_booth: MakeBooth) -> None:
     booth = make_booth(settings=short(screen={"text_size": 1.3}))
     start = booth.item("start-en")
