@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import lru_cache
 from pathlib import Path
 from textwrap import dedent, indent
 from typing import Any
@@ -83,9 +84,10 @@ def _same_variables(source: str, target: str) -> bool:
     return _stems(source) == _stems(target)
 
 
-def _stems(text: str) -> set[str]:
+@lru_cache(maxsize=4096)
+def _stems(text: str) -> frozenset[str]:
     names = _Variables.of(text)
-    return {CARD if name.startswith(f"{CARD}-") else name for name in names}
+    return frozenset(CARD if name.startswith(f"{CARD}-") else name for name in names)
 
 
 class _Variables(Visitor):
@@ -166,7 +168,7 @@ class _Sentences(_Part):
         patterns = {name: self._pattern(name, text) for name, text in texts.items()}
         if not patterns:
             return None
-        resource = _resource(self.target) if self.target.is_file() else Resource([])
+        resource = FluentParser().parse(_read(self.target)) if self.target.is_file() else Resource([])
         there = {_name(entry): entry for entry in resource.body if isinstance(entry, Message | Term)}
         for entry in _resource(self.source).body:
             if not isinstance(entry, Message | Term):
@@ -208,7 +210,18 @@ def _fill(
 
 
 def _resource(file: Path) -> Resource:
-    return FluentParser().parse(read_text(f"the file {file}", file))
+    """Return what a file says; it is shared, and not to be changed."""
+    return _parsed(_read(file))
+
+
+def _read(file: Path) -> str:
+    return read_text(f"the file {file}", file)
+
+
+@lru_cache(maxsize=64)
+def _parsed(text: str) -> Resource:
+    """Parse a file; the same ones are looked at for every list of texts, and parsing them takes longest."""
+    return FluentParser().parse(text)
 
 
 def _name(entry: Message | Term) -> str:
