@@ -75,7 +75,7 @@ console-booth = The booth
 ## Health
 
 console-health = How everything is
-console-health-not = needs a look
+console-health-not = see above
 console-robot = Robot
 console-robot-none = There is none
 console-avatar = Avatar
@@ -112,7 +112,7 @@ console-policy = Policy
 console-study = Study
 console-pin-line-name = PIN
 console-pin-set = is asked for
-console-pin-none = none: every session is a trial, and everyone can open this panel
+console-pin-none = none; every session is a trial, and everyone can open this panel
 console-screen = Screen
 
 ## Counts
@@ -139,6 +139,11 @@ console-condition-no-assistance = no help
 
 console-sessions = Last sessions
 console-sessions-none = None yet
+console-sessions-number = no.
+console-sessions-begun = begun
+console-sessions-condition = condition
+console-sessions-stage = stage
+console-sessions-status = status
 console-robot-lost = robot lost
 console-status-running = under way
 console-status-completed = completed
@@ -201,6 +206,7 @@ console-break = A break: back in
 console-break-minutes = { $minutes } min
 console-break-end = End the break
 console-abort = End the session
+console-abort-then = To go on to the next visitor
 console-next = Next visitor
 console-resume = Go on with a session that was cut off
 console-resume-one = { $participant } · { $when } · { $stage }

@@ -75,7 +75,7 @@ console-booth = El puesto
 ## Health
 
 console-health = Estado
-console-health-not = por revisar
+console-health-not = ver arriba
 console-robot = Robot
 console-robot-none = No hay
 console-avatar = Avatar
@@ -112,7 +112,7 @@ console-policy = Política
 console-study = Estudio
 console-pin-line-name = PIN
 console-pin-set = se pide
-console-pin-none = no hay: cada sesión es una prueba, y cualquiera puede abrir el panel
+console-pin-none = no hay; cada sesión es una prueba, y cualquiera puede abrir el panel
 console-screen = Pantalla
 
 ## Counts
@@ -139,6 +139,11 @@ console-condition-no-assistance = sin ayuda
 
 console-sessions = Últimas sesiones
 console-sessions-none = Aún ninguna
+console-sessions-number = n.º
+console-sessions-begun = inicio
+console-sessions-condition = condición
+console-sessions-stage = fase
+console-sessions-status = estado
 console-robot-lost = robot perdido
 console-status-running = en curso
 console-status-completed = completada
@@ -201,6 +206,7 @@ console-break = Un descanso: de vuelta en
 console-break-minutes = { $minutes } min
 console-break-end = Terminar la pausa
 console-abort = Terminar la sesión
+console-abort-then = Para pasar a la siguiente persona
 console-next = Siguiente persona
 console-resume = Reanudar una sesión cortada
 console-resume-one = { $participant } · { $when } · { $stage }

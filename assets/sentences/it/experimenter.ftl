@@ -75,7 +75,7 @@ console-booth = La postazione
 ## Health
 
 console-health = Stato
-console-health-not = da controllare
+console-health-not = vedi sopra
 console-robot = Robot
 console-robot-none = Non ce n’è
 console-avatar = Avatar
@@ -112,7 +112,7 @@ console-policy = Politica
 console-study = Studio
 console-pin-line-name = PIN
 console-pin-set = viene chiesto
-console-pin-none = non c’è: ogni sessione è una prova, e chiunque può aprire il pannello
+console-pin-none = non c’è; ogni sessione è una prova, e chiunque può aprire il pannello
 console-screen = Schermo
 
 ## Counts
@@ -139,6 +139,11 @@ console-condition-no-assistance = nessun aiuto
 
 console-sessions = Ultime sedute
 console-sessions-none = Ancora nessuna
+console-sessions-number = n.
+console-sessions-begun = inizio
+console-sessions-condition = condizione
+console-sessions-stage = fase
+console-sessions-status = esito
 console-robot-lost = robot perso
 console-status-running = in corso
 console-status-completed = completata
@@ -201,6 +206,7 @@ console-break = Una pausa: di ritorno tra
 console-break-minutes = { $minutes } min
 console-break-end = Termina la pausa
 console-abort = Termina la seduta
+console-abort-then = Per passare alla prossima persona
 console-next = Prossima persona
 console-resume = Riprendi una seduta interrotta
 console-resume-one = { $participant } · { $when } · { $stage }

@@ -352,7 +352,9 @@ class Panel:
             "language": booth.screens.attract.resting.language,
             "volumes": [{"value": str(volume), "label": f"{volume:.0%}"} for volume in LOUDNESS],
             "volume": str(min(LOUDNESS, key=lambda volume: abs(volume - actions.volume))),
-            "canBeNext": permission(Action.NEXT, actions.stage).effect is not ActionEffect.REFUSED,
+            # Before the thanks it would do what ending the session does, which stands apart.
+            "canBeNext": actions.stage in (Stage.THANKS, Stage.OVER)
+            and permission(Action.NEXT, actions.stage).effect is not ActionEffect.REFUSED,
             "muted": embodiments.is_muted,
             "staysPaused": booth.runner.accepts(PauseEnded(at_ms=booth.runner.now_ms()))
             and not actions.paused_by_panel,
@@ -398,6 +400,11 @@ WORDS = (
     "console-counts-withdrawn",
     "console-sessions",
     "console-sessions-none",
+    "console-sessions-number",
+    "console-sessions-begun",
+    "console-sessions-condition",
+    "console-sessions-stage",
+    "console-sessions-status",
     "console-deviations",
     "console-deviations-none",
     "console-next-session",
@@ -414,6 +421,7 @@ WORDS = (
     "console-break",
     "console-break-end",
     "console-abort",
+    "console-abort-then",
     "console-next",
     "console-resume",
     "console-backup",

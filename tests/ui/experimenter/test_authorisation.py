@@ -292,7 +292,7 @@ def test_without_a_pin_nothing_is_asked_but_the_reason(make_assigner: MakeDesk) 
     assert assigner.panel.is_open
     lines = assigner.panel.property("health")["more"]
     assert [line["message"] for line in lines if line["name"] == "PIN"] == [
-        "none: every session is a trial, and everyone can open this panel"
+        "none; every session is a trial, and everyone can open this panel"
     ]
 
 

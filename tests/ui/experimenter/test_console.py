@@ -311,7 +311,7 @@ def test_one_line_tells_that_all_is_well_or_what_is_not(assigner: Desk, monkeypa
     assert assigner.panel.property("health")["summary"] == "Disk: only 100 MiB free: make room this evening"
     assert shows(assigner.app.window.contentItem(), NO_ALARM)
     # What it is stands in the notice alone.
-    assert shows(assigner.app.window.contentItem(), "needs a look")
+    assert shows(assigner.app.window.contentItem(), "see above")
     assert not shows(assigner.app.window.contentItem(), "only 100 MiB free: make room this evening")
 
 

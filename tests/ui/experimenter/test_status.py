@@ -114,7 +114,7 @@ def test_every_deviation_has_a_line_in_every_language(noted: AuditEvent, languag
         (
             replace(WELL, has_pin=False),
             "PIN",
-            "none: every session is a trial, and everyone can open this panel",
+            "none; every session is a trial, and everyone can open this panel",
         ),
         (replace(WELL, supervised=False), "Supervisor", "none; if the kiosk fails, it stays off"),
         (replace(WELL, screen="the desktop gets some keys", screen_well=False), "Screen", "the desktop gets some keys"),

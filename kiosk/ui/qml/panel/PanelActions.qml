@@ -13,7 +13,8 @@ PanelSection {
     readonly property var choices: panel.choices
     readonly property real space: apart
     // How high they are: higher where they have a column of their own.
-    readonly property real tall: (wide ? 84 : 72) * Theme.unit
+    readonly property bool ample: wide && least > 0 && choices.underWay && !choices.canBeNext && Theme.textSize <= 1.15
+    readonly property real tall: (ample ? 110 : wide ? 84 : 72) * Theme.unit
 
     title: words["console-actions"]
 
@@ -27,8 +28,9 @@ PanelSection {
     }
     // What is pressed all day: the largest.
     component Main: PanelButton {
-        least: (actions.wide ? 108 : 92) * Theme.unit
-        width: actions.wide ? parent?.width ?? Infinity : ((parent?.width ?? Infinity) - actions.space) / 2 - 0.5
+        readonly property bool alone: [actions.choices.onBreak, actions.choices.canBeNext, actions.choices.underWay].filter(Boolean).length === 1
+        least: (actions.ample ? 124 : actions.wide ? 108 : alone ? 76 : 92) * Theme.unit
+        width: actions.wide || alone ? parent?.width ?? Infinity : ((parent?.width ?? Infinity) - actions.space) / 2 - 0.5
         font.pixelSize: Theme.dense * 1.18
     }
 
@@ -95,16 +97,29 @@ PanelSection {
     Item {
         visible: actions.choices.underWay && actions.wide
         width: parent.width
-        height: end.height + 2 * Theme.gap
+        height: end.height + then.height + 2 * Theme.gap
     }
     Rectangle {
         parent: actions
         visible: end.visible
         x: actions.wide ? end.x : actions.width / 2 - width
-        y: actions.wide ? end.y - Theme.gap : actions.height - height - 1.1 * Theme.gap
+        y: actions.wide ? then.y - Theme.gap : actions.height - height - 1.1 * Theme.gap
         width: actions.wide ? end.width : 2 * Theme.unit
         height: actions.wide ? 2 * Theme.unit : breaks.height
         color: Theme.edge
+    }
+    PlainText {
+        id: then
+        parent: actions
+        visible: end.visible
+        x: end.x
+        y: end.y - height - 8 * Theme.unit
+        width: end.width
+        text: actions.words["console-abort-then"]
+        font.pixelSize: Theme.dense
+        color: Theme.faintInk
+        horizontalAlignment: Text.AlignLeft
+        wrapMode: Text.Wrap
     }
     PanelButton {
         id: end

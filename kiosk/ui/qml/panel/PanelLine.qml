@@ -13,17 +13,20 @@ Item {
     // What a button behind the words says; none without.
     property string action: ""
     property bool ready: true
+    // What the words leave free at the end, where one of several lines has a button, so that all of them are as long.
+    property real beside: 0
     // How high it is at least.
     property real least: 0
     readonly property real space: 10 * Theme.unit
     signal asked()
 
-    height: Math.max(least, said.height, button.visible ? button.height : 0)
+    // The button reaches into the lines beside its own, which leave it room: all lines are at even steps.
+    height: Math.max(least, said.height, button.visible && beside === 0 ? button.height : 0)
 
     Row {
         id: said
         anchors.verticalCenter: parent.verticalCenter
-        width: row.width - (button.visible ? button.width + row.space : 0)
+        width: row.width - (row.beside > 0 ? row.beside + row.space : button.visible ? button.width + row.space : 0)
         spacing: row.space
         PanelMark { id: mark; well: row.line.is_ok; size: row.size }
         PlainText {
@@ -46,10 +49,9 @@ Item {
     PanelButton {
         id: button
         objectName: "test-" + row.line.part
-        // Close behind the words.
-        x: Theme.across(Math.min(row.width - width, mark.width + name.width + message.contentWidth + 4 * row.space), width, row.width)
+        x: Theme.across(row.width - width, width, row.width)
         anchors.verticalCenter: parent.verticalCenter
-        width: implicitWidth
+        width: row.beside > 0 ? row.beside : implicitWidth
         visible: row.action !== ""
         enabled: row.ready
         words: row.action

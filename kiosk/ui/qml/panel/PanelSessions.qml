@@ -12,23 +12,53 @@ PanelSection {
     title: words["console-sessions"]
 
     PanelEmpty { words: sessions.words["console-sessions-none"]; visible: sessions.records.sessions.length === 0 }
+    component Field: PanelCell {
+        required property real share
+        size: sessions.size
+        width: Math.floor(sessions.room * share)
+    }
+    readonly property real step: 8 * Theme.unit
+    // What the fields of a line share: the mark and the steps between them are not theirs.
+    readonly property real room: width - 1.6 * Theme.gap - size - 5 * step
+
+    Row {
+        visible: sessions.records.sessions.length > 0
+        spacing: sessions.step
+        Item { width: sessions.size; height: 1 }
+        Field { share: 0.1; words: sessions.words["console-sessions-number"]; heading: true }
+        Field { share: 0.15; words: sessions.words["console-sessions-begun"]; heading: true }
+        Field { share: 0.2; words: sessions.words["console-sessions-condition"]; heading: true }
+        Field { share: 0.2; words: sessions.words["console-sessions-stage"]; heading: true }
+        Field { share: 0.35; words: sessions.words["console-sessions-status"]; heading: true }
+    }
     Repeater {
         model: sessions.records.sessions
         delegate: Row {
             id: row
             required property var modelData
             width: parent.width
-            spacing: 8 * Theme.unit
-            PanelMark { id: mark; well: !row.modelData.odd; size: sessions.size }
-            PanelCell { size: sessions.size; width: row.width * 0.12; words: row.modelData.participant }
-            PanelCell { size: sessions.size; width: row.width * 0.13; words: row.modelData.when }
-            PanelCell { size: sessions.size; width: row.width * 0.13; words: row.modelData.condition }
-            PanelCell { size: sessions.size; width: row.width * 0.19; words: row.modelData.stage }
-            PanelCell {
-                size: sessions.size
-                width: row.width * 0.43 - mark.width - 5 * row.spacing
+            spacing: sessions.step
+            PanelMark { width: sessions.size; well: !row.modelData.odd; size: sessions.size }
+            Field { share: 0.1; words: row.modelData.participant; column: sessions.words["console-sessions-number"] }
+            Field { share: 0.15; words: row.modelData.when; column: sessions.words["console-sessions-begun"] }
+            Field { share: 0.2; words: row.modelData.condition; column: sessions.words["console-sessions-condition"] }
+            Field { share: 0.2; words: row.modelData.stage; column: sessions.words["console-sessions-stage"] }
+            Field {
+                share: 0.35
                 words: [row.modelData.status, row.modelData.reason, row.modelData.robot].filter(each => each !== "").join(" · ")
+                column: sessions.words["console-sessions-status"]
             }
+        }
+    }
+    // Lines for those to come, where the card ends beside another one.
+    Repeater {
+        readonly property real step: 1.37 * sessions.size + sessions.apart
+        readonly property int taken: sessions.records.sessions.length + 2
+        model: sessions.records.sessions.length === 0 ? 0 : Math.max(0, Math.min(5 - taken + 2, Math.floor((sessions.least - 2.4 * Theme.gap) / step) - taken + 1))
+        delegate: Item {
+            width: parent?.width ?? 0
+            height: Math.ceil(1.37 * sessions.size)
+            Rectangle { width: parent.width; height: 2 * Theme.unit; color: Theme.edge }
         }
     }
 }

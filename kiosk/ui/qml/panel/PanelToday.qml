@@ -25,9 +25,17 @@ Item {
     readonly property real foot: below + left.height
     // What the status has of a wide screen, and how high each of its lines then is; upright, as high as a button.
     readonly property real room: wide && panel.alarms.length === 0 ? Math.floor(seen - below) : 0
-    readonly property real each: wide ? Math.max(0, Math.min(76 * Theme.unit, 0.97 * (room - 3.9 * size) / (panel.health.lines.length + 1) - apart)) : 38 * Theme.unit
+    readonly property real each: wide ? Math.max(0, Math.min(76 * Theme.unit, 0.97 * (room - 3.9 * size) / (panel.health.lines.length + 1) - apart)) : 36 * Theme.unit
     // A line that is as high as the button in it needs no more room around it.
     readonly property real apart: (!wide ? 9 : room > 0 ? 2 : 14) * Theme.unit
+
+    // What a test takes of each line of the status.
+    readonly property real testing: Math.ceil(letters.advanceWidth + 42 * Theme.unit)
+    TextMetrics {
+        id: letters
+        text: today.words["console-test-voice"]
+        font.pixelSize: Theme.dense
+    }
 
     height: wide ? Math.max(right.height, left.y + left.height, middle.y + middle.height) : middle.y + middle.height
 
@@ -48,6 +56,7 @@ Item {
             width: parent.width
             panel: today.panel
             wide: today.wide
+            size: today.size
             // Beside the others it ends with them, if what stands at its foot is seen then.
             least: today.wide && today.panel.records.resumable.length === 0 ? Math.min(today.foot, today.seen) : 0
         }
@@ -73,6 +82,7 @@ Item {
                     width: parent.width
                     size: today.size
                     least: today.each
+                    beside: today.testing
                     // The notice above tells what it is.
                     notWell: today.words["console-health-not"]
                     action: modelData.part === "voice" ? today.words["console-test-voice"] : ""
