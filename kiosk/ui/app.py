@@ -146,6 +146,8 @@ class App:
         if not virtual:
             # What a visitor does is written on a thread of its own, and does not wait for a copy or a list.
             self.runner.writer = DiskWriter(self._writes)
+            # Not 0: Qt would call back in the same step of its loop.
+            self.runner.later = partial(self.clock.after, 1)
 
     def _play_sounds(self, settings: VoiceConfig) -> None:
         """Play a sound with what happens, if the study wants any."""

@@ -327,6 +327,8 @@ class SessionRunner:
         self.returns.on_failure = self._give_way
         self._queue: deque[WorldEvent] = deque()
         self._unwritten: _Handled | None = None
+        self.later: Callable[[Callable[[], None]], object] = lambda call: call()
+        """Has something done in a further step of the event loop, where there is one."""
         self.writer: DiskWriter | None = None
         """Writes beside the interface; without one the interface waits for the disk."""
         self._busy = BusyWait(clock, recorder.wait_ms, lambda waits: screens.kiosk.wait(waits=waits))
@@ -618,7 +620,13 @@ class SessionRunner:
         if self.on_event is not None:
             self.on_event(event, outcome, stage)
         if stage is Stage.OVER:
-            self._rest("attract")
+            self._end()
+
+    def _end(self) -> None:
+        """Get ready for the next visitor in two steps, of which neither holds the interface long."""
+        session = self._session
+        self._renderer.screens.clear_unseen()
+        self.later(lambda: self._rest("attract") if self._session is session else None)
 
     def _is_outrun(self, waiting: WorldEvent, outcome: Outcome) -> bool:
         """Whether what waits belongs to what this outcome has ended."""

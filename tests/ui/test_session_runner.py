@@ -287,3 +287,16 @@ def test_closing_waits_for_the_write_under_way_and_loses_nothing(booth: Booth, s
     assert stored_flips(booth) == [Position(0, 3), Position(0, 4)]
     with open_repository(booth.data) as stored:
         assert stored.sessions()[0].status is Status.INTERRUPTED
+
+
+@pytest.mark.parametrize("dropped", [False, True], ids=["the session ends", "the session is dropped meanwhile"])
+def test_the_pages_are_cleared_in_one_step_and_the_start_screen_comes_in_the_next(booth: Booth, dropped: bool) -> None:  # noqa: FBT001 - a parameter
+    steps: list[Callable[[], None]] = []
+    booth.app.runner.later = steps.append
+    booth.rehearse(seed=1)
+    assert (booth.screen, booth.app.screens.board.rowCount()) == ("form", 0)
+    if dropped:
+        booth.app.runner.pause()
+    for step in steps:
+        step()
+    assert booth.screen == ("pause" if dropped else "attract")

@@ -145,6 +145,19 @@ class ScreenSet:
             screen.clear()
         self.set_language(self.resting)
 
+    def clear_unseen(self) -> None:
+        """Leave nothing of a visitor on the pages that do not stand there."""
+        for screen, names in (
+            (self.about, {"about"}),
+            (self.consent, {"consent"}),
+            (self.form, {"form"}),
+            (self.board, {"practice", "game"}),
+            (self.result, {"result"}),
+            (self.debrief, {"debrief"}),
+        ):
+            if self.kiosk.shown not in names:
+                screen.clear()
+
     def connect_input(self, to: InputHandler) -> None:
         """Hand on what visitors do: the language of a new one, and an event for everything after that."""
         dispatch, now_ms = to.dispatch, to.now_ms
