@@ -104,6 +104,17 @@ def test_the_shipped_languages_are_complete() -> None:
         assert [unit.key for unit in units if unit.state is not State.DONE] == []
 
 
+def test_what_was_filled_in_is_not_taken_for_what_a_file_said(study: Path) -> None:
+    shutil.copytree(ASSETS / "sentences" / "it", study.parent / "nl")
+    file = study.parent / "nl" / "screens.ftl"
+    text, before = file.read_text("utf-8"), dutch(study).units()
+    unit = next(unit for unit in before if unit.part == "sentences/screens.ftl")
+    dutch(study).fill({unit.key: translated(unit)})
+    assert file.read_text("utf-8") != text
+    file.write_text(text, "utf-8")
+    assert dutch(study).units() == before
+
+
 def test_each_state_is_told_apart(study: Path) -> None:
     shutil.copytree(ASSETS / "sentences" / "it", study.parent / "nl")
     shutil.copy(study.parent / "sheets" / "en.toml", study.parent / "sheets" / "nl.toml")
