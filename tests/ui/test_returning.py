@@ -37,6 +37,7 @@ def study(tmp_path: Path) -> Settings:
     given = SMALL.model_dump(exclude_defaults=True) | {
         "about_you": str(tmp_path / "about.toml"),
         "consent": {"text": str(folder)},
+        "questionnaires": ["trust"],
         "returning": {"enabled": True},
         "randomisation": {"target_n": {"tom": 2, "notom": 2}, "block_size": 2, "seed": 3},
     }
