@@ -70,7 +70,10 @@ def of_window(app: App) -> list[dict[str, str]]:
     lay_out(app.window)
     return [
         {"kind": re.sub(r"_QML.*", "", item.metaObject().className()), "name": item.objectName()}
-        | {key: str(item.property(key)) for key in (*KEPT_BY_AN_ITEM, *(PLACE if item.isVisible() else ()))}
+        | {
+            key: str(item.property(key)).replace("-0.0", "0.0")
+            for key in (*KEPT_BY_AN_ITEM, *(PLACE if item.isVisible() else ()))
+        }
         for item in items(app.window.contentItem())
     ]
 

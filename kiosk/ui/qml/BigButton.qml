@@ -13,6 +13,8 @@ Button {
     property bool quiet: false
     // A quiet one that is the way on, once something else is done: paler than the others.
     property bool waits: false
+    // One that waits for what the page asks for shows a lock before its words.
+    property bool locked: false
     // How round it is at most.
     property real corner: Infinity
 
@@ -47,10 +49,19 @@ Button {
     background: Rectangle {
         id: ground
         radius: Math.min(height / 2, button.topPadding + button.font.pixelSize, button.corner)
-        color: button.waits ? Theme.shelf : button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
+        color: button.waits && !button.locked ? Theme.shelf : button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
         border.color: button.waits ? Theme.slot : Theme.sea
         border.width: button.quiet ? 3 * Theme.unit : 0
 
+        Drawing {
+            visible: button.locked
+            // In the room before the words, so that these stay where they are.
+            x: Theme.across(button.leftPadding - 22 * Theme.unit - width / 2, width, ground.width)
+            y: (ground.height - height) / 2
+            scale: 34 * Theme.unit / 24
+            ink: Theme.faintInk
+            path: "M5.5 11 H18.5 V20.5 H5.5 Z M8.5 11 V7.5 A3.5 3.5 0 0 1 15.5 7.5 V11"
+        }
         FocusRing {
             around: button
             radius: ground.radius + reach

@@ -9,8 +9,6 @@ PageFrame {
 
     required property ConsentScreen consent
 
-    // How much of the page is kept for the line above the way on, also when it says nothing: nothing moves.
-    readonly property real kept: Math.max(0, reason.height + 30 * Theme.unit - Theme.gap)
     // Whether all of the text is shown, or what stands for it in short.
     property bool whole: false
     readonly property bool short: consent.points.length > 0 && !whole
@@ -24,6 +22,7 @@ PageFrame {
     other: words["consent-decline"]
     way.name: "agree"
     way.waits: !consent.complete
+    way.locks: true
     way.reason: consent.waiting
     way.otherName: "decline"
     onWent: consent.agree()
@@ -56,7 +55,7 @@ PageFrame {
     }
     FocusScope {
         id: home
-        y: Math.min(view.sink(height), view.room - view.kept - height)
+        y: Math.min(view.sink(height), view.room - height)
         width: parent?.width ?? 0
         height: pane.height
         // At first at no box: the page is read from its top, and no key ticks what was not seen. Tab goes to the first.
@@ -66,7 +65,7 @@ PageFrame {
         ScrollPane {
             id: pane
             width: parent.width
-            room: view.room - view.kept
+            room: view.room
             more: view.words["scroll-more"]
             // What there is to tick stands apart from what is read, as far as the page has room.
             spacing: Math.max(0.5 * Theme.gap, Math.min((view.width < view.height ? 3.4 : 2.2) * Theme.gap, room - (view.short ? points.height : sheet.height) - boxes.height))
@@ -134,6 +133,24 @@ PageFrame {
                 id: boxes
                 width: pane.width
                 spacing: (points.airy && view.short ? (view.width < view.height ? 1.1 : 0.67) : 0.5) * Theme.gap
+                // What is still to be ticked. Its place is kept when all is, so that nothing moves.
+                PlainText {
+                    id: waits
+                    objectName: "consent-waits"
+                    FontMetrics {
+                        id: letters
+                        font: waits.font
+                    }
+                    visible: view.consent.purposes.some(purpose => purpose.required)
+                    width: boxes.width
+                    height: Math.ceil(letters.height)
+                    text: view.consent.waiting
+                    font.pixelSize: points.airy && view.short ? Theme.size(view.width < view.height ? 36 : 34) : Theme.reading
+                    fontSizeMode: Text.HorizontalFit
+                    minimumPixelSize: Theme.size(24)
+                    verticalAlignment: Text.AlignVCenter
+                    Accessible.ignored: text === ""
+                }
                 Repeater {
                     id: purposes
                     model: view.consent.purposes
@@ -154,27 +171,6 @@ PageFrame {
                 }
             }
         }
-    }
-    // Why the way on waits, right above it.
-    PlainText {
-        id: reason
-        objectName: "consent-waits"
-        readonly property real tall: metrics.height
-        FontMetrics {
-            id: metrics
-            font: reason.font
-        }
-        y: view.foot - view.begin - height - 12 * Theme.unit
-        width: parent?.width ?? 0
-        height: tall
-        text: view.consent.waiting
-        font { pixelSize: Theme.small; bold: true }
-        fontSizeMode: Text.HorizontalFit
-        minimumPixelSize: Theme.size(20)
-        horizontalAlignment: Text.AlignRight
-        verticalAlignment: Text.AlignVCenter
-        color: Theme.faintInk
-        Accessible.ignored: text === ""
     }
     Connections {
         target: view.consent

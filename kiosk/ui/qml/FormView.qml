@@ -222,11 +222,11 @@ PageFrame {
         const beside = keyboard.field === null ? 0
             : Math.max(0, Math.min(height - tall, foot - tall - Theme.gap, begin + home.y + keyboard.field.mapToItem(home, 0, keyboard.field.height / 2).y - tall / 2))
         if (Math.max(before, after) >= wide)
-            return Qt.point(after >= wide ? width + (after - (accompanied ? Theme.gap : 0) - wide) / 2 : -(before + wide) / 2, 5 * Theme.gap)
+            return Qt.point(after >= wide ? width + (after - (accompanied ? Theme.gap : 0) - wide) / 2 : -(before + wide) / 2, 4.4 * Theme.gap)
         if ((width - column) / 2 >= wide)
             return Qt.point(width - wide - ((width - column) / 2 - wide) / 2, beside)
         if (Window.height - height >= tall)
-            return Qt.point((width - wide) / 2, height + (Window.height - height - tall) / 2)
+            return Qt.point((width - wide) / 2, height + Math.max(0, (Window.height - height - tall) / 2 - 14 * Theme.unit))
         const free = foot - tall - Theme.gap
         return free >= begin + home.y + home.height ? Qt.point((width - wide) / 2, free) : Qt.point(width - wide, beside)
     }
@@ -355,6 +355,7 @@ PageFrame {
         parent: view
         form: view.form
         place: view.padPlace(width, height)
+        aim: field === null ? 0 : view.begin + home.y + field.mapToItem(home, 0, field.height / 2).y
         words: view.words
         onDone: view.way.button.forceActiveFocus(Qt.MouseFocusReason)
     }

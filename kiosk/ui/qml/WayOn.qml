@@ -13,6 +13,8 @@ FocusScope {
     property string label: ""
     property bool quiet: false
     property bool waits: false
+    // Whether it then shows a lock.
+    property bool locks: false
     // Why it waits, for those who cannot see it.
     property string reason: ""
     // Whether the ways on take what the way back leaves of the width, with gaps as wide between all of them.
@@ -55,6 +57,7 @@ FocusScope {
         x: Theme.across(ways.width - width, width, ways.width)
         quiet: ways.quiet
         waits: ways.waits
+        locked: ways.waits && ways.locks
         Accessible.description: ways.reason
         words: ways.label
         focus: true

@@ -92,6 +92,7 @@ Row {
         objectName: `number-${number.item}`
         focus: true
         label: `${number.label} ${number.range}`
+        asks: number.label
         hint: number.hint
         Accessible.description: ""
         digits: true

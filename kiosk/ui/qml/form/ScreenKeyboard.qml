@@ -14,6 +14,8 @@ Rectangle {
     required property var words
     // Where a number's keys stand.
     required property point place
+    // How high in the page the middle of the field is.
+    property real aim: 0
     signal done()
 
     // A keyboard is not turned round with the page.
@@ -36,11 +38,16 @@ Rectangle {
     readonly property real keyWidth: numbers ? (flat ? 118 : broad ? 150 : roomy ? 108 : 80) * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
     readonly property real keyHeight: (numbers ? (flat ? 104 : roomy ? 80 : 68) : 60) * Theme.unit
 
+    // Whether they point at their field, at one side of it.
+    readonly property bool points: numbers && !flat && (x >= parent.width || x < 0) && aim > y + radius + 30 * Theme.unit && aim < y + height - radius - 30 * Theme.unit
+    // How much of their height tells what is typed, where they stand far from their field.
+    readonly property real headed: flat ? 84 * Theme.unit : 0
+
     width: numbers ? keys.width + 1.2 * Theme.gap : parent.width
-    height: keys.height + 1.2 * Theme.gap
+    height: headed + keys.height + 1.2 * Theme.gap
     x: numbers ? place.x : 0
     y: numbers ? place.y : parent.height - height
-    radius: numbers ? flat ? height / 6 : 1.6 * Theme.radius : 0
+    radius: numbers ? flat ? 40 * Theme.unit : 1.6 * Theme.radius : 0
     color: Theme.sand
     visible: field !== null
     onFieldChanged: {
@@ -96,9 +103,63 @@ Rectangle {
         onClicked: keyboard.shown = leads
     }
 
+    // Like a bubble's tail, to the field that is typed into.
+    Rectangle {
+        visible: keyboard.points
+        x: keyboard.x < 0 ? keyboard.width - width / 2 - 3 * Theme.unit : 3 * Theme.unit - width / 2
+        y: keyboard.aim - keyboard.y - height / 2
+        width: 44 * Theme.unit
+        height: width
+        rotation: 45
+        color: keyboard.color
+    }
+    Item {
+        id: heading
+        visible: keyboard.headed > 0
+        x: keys.x
+        y: 0.6 * Theme.gap
+        width: keys.width
+        height: keyboard.headed - keyboard.gap
+        Text {
+            x: 14 * Theme.unit
+            width: echo.x - x - 20 * Theme.unit
+            height: parent.height
+            verticalAlignment: Text.AlignVCenter
+            textFormat: Text.PlainText
+            text: keyboard.field?.asks ?? ""
+            font { pixelSize: Theme.size(36); bold: true }
+            fontSizeMode: Text.HorizontalFit
+            minimumPixelSize: Theme.size(24)
+            elide: Text.ElideRight
+            color: Theme.ink
+            Accessible.ignored: true
+        }
+        Rectangle {
+            id: echo
+            x: parent.width - width
+            width: others.wish
+            height: parent.height
+            radius: 18 * Theme.unit
+            color: "transparent"
+            border { color: Theme.sea; width: 3 * Theme.unit }
+            Text {
+                anchors { fill: parent; margins: 8 * Theme.unit }
+                horizontalAlignment: Text.AlignHCenter
+                verticalAlignment: Text.AlignVCenter
+                textFormat: Text.PlainText
+                text: keyboard.field?.text ?? ""
+                font { pixelSize: Theme.size(44); bold: true }
+                fontSizeMode: Text.HorizontalFit
+                minimumPixelSize: Theme.size(24)
+                color: Theme.ink
+                Accessible.ignored: true
+            }
+        }
+    }
     Grid {
         id: keys
-        anchors.centerIn: parent
+        x: (keyboard.width - width) / 2
+        y: keyboard.headed + 0.6 * Theme.gap
         columns: keyboard.flat ? 2 : 1
         spacing: keyboard.gap
         horizontalItemAlignment: Grid.AlignHCenter
