@@ -439,14 +439,18 @@ def test_on_an_upright_screen_the_columns_numbers_stand_nearer_to_the_cards_than
 
 
 @STILL
-def test_on_an_upright_screen_the_tray_is_as_wide_as_the_cards_and_its_places_are_lower(app: App) -> None:
+def test_on_an_upright_screen_the_tray_is_as_wide_as_the_cards_with_their_rows_numbers(app: App) -> None:
     resize(app.window, "upright")
     lay_out(app.window)
     tray = place(next(item for item in items(app.window.contentItem()) if lies_in(item, "Tray")))
     first, last = place(find(app, "card-0")), place(find(app, "card-5"))
-    assert first.left() < tray.left() < first.center().x()
+    number = painted(
+        max((i for i in items(app.window.contentItem()) if i.property("text") == "1"), key=lambda i: place(i).top())
+    )
+    assert abs(tray.left() - 2 * 24 * app.window.width() / 1080) < 4
+    assert tray.left() <= number.left() < number.right() < first.left()
     assert last.center().x() < tray.right() < last.right()
-    assert tray.height() / 2 < 0.7 * first.height()
+    assert tray.height() / 2 < 0.75 * first.height()
 
 
 @STILL

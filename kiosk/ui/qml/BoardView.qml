@@ -35,7 +35,10 @@ FocusScope {
     readonly property real share: upright ? 0.94 : 0.91
     // On an upright screen, what stands above the cards begins and ends with them. Their pictures have a narrow margin.
     readonly property real margin: (1 - 0.962 * share) / 2
-    readonly property real inset: upright ? margin * cell : 0
+    readonly property real headLeft: table.x + margin * cell - gutter
+    readonly property real headRight: table.x + table.width - (upright ? margin * cell : 0)
+    // On an upright screen, the room of the rows' numbers and their arrow beside the cards.
+    readonly property real gutter: (upright ? 64 : 0) * Theme.unit
 
     // Columns are counted from the left in every language, on the board and in what is said.
     LayoutMirroring.enabled: false
@@ -45,7 +48,8 @@ FocusScope {
     readonly property real side: broad ? Math.min(300 * Theme.unit, 0.17 * width) : 0
     // Where the cards leave room for it, the tray has two rows of larger places.
     readonly property bool tall: height - (182 + 70) * Math.max(1, Theme.textSize) * Theme.unit - rows * widest > 70 * Theme.unit
-    readonly property int shelfLines: pairs > 12 ? 2 : 1
+    // Two rows of large places on an upright screen, where the cards leave room for them.
+    readonly property int shelfLines: pairs > 12 || (pairs > 6 && Theme.textSize <= 1.15 && rows * widestUpright < 0.7 * width) ? 2 : 1
     readonly property int lines: upright ? shelfLines : tall ? 2 : 1
     // On an upright screen: the line of words above the tray, and a place of the tray. They depend on no height.
     readonly property real wordsLine: (78 * Math.max(1, Theme.textSize) + 20) * Theme.unit + wordsApart
@@ -70,10 +74,10 @@ FocusScope {
     readonly property real above: practice.width + progress.implicitWidth + skip.implicitWidth + (upright ? 0 : 240 * Theme.unit) + 5 * Theme.gap
     readonly property bool skipsBelow: !broad && above > width
     // Beside the numbers there is room for a mark's arrow.
-    readonly property real numbers: (upright ? 60 : 78) * Theme.unit
-    // On an upright screen the cards stand in the middle and are together as wide as the helper's sentence.
-    readonly property real wide: 0.88 * width
-    readonly property real widestUpright: wide / Math.max(1, columns - 2 * margin)
+    readonly property real numbers: (upright ? 66 : 78) * Theme.unit
+    // On an upright screen the cards and the numbers of their rows are together as wide as the helper's sentence.
+    readonly property real wide: width - 4 * Theme.gap
+    readonly property real widestUpright: (wide - gutter) / Math.max(1, columns - 2 * margin)
     readonly property real footer: pill.height + (upright ? 32 : 22) * Theme.unit + (practises && skipsBelow ? skip.height + Theme.gap : 0)
     // How high this item has to be on an upright screen, for cells as wide as there is room for.
     readonly property real widest: upright ? widestUpright : (width - 2 * side - numbers - 2 * Theme.gap) / Math.max(1, columns)
@@ -133,9 +137,9 @@ FocusScope {
     Rectangle {
         id: practice
         visible: view.practises
-        x: heads ? table.x + view.inset : !view.broad && view.above <= view.cardsEnd - view.cardsBegin ? view.cardsBegin : Theme.gap
+        x: heads ? view.headLeft : !view.broad && view.above <= view.cardsEnd - view.cardsBegin ? view.cardsBegin : Theme.gap
         // Whether everything above the cards begins and ends with them.
-        readonly property bool heads: view.upright && width + progress.implicitWidth + (view.skipsBelow ? 0 : skip.width + Theme.gap) + Theme.gap <= table.width - 2 * view.inset
+        readonly property bool heads: view.upright && width + progress.implicitWidth + (view.skipsBelow ? 0 : skip.width + Theme.gap) + Theme.gap <= view.headRight - view.headLeft
         y: view.broad ? table.y : view.wordsAt + (view.wordsHigh - height) / 2
         width: named.width + 1.6 * Theme.gap
         height: named.height + 0.5 * Theme.gap
@@ -155,7 +159,7 @@ FocusScope {
     }
     PlainText {
         id: progress
-        x: !view.practises ? (view.broad ? Theme.gap : table.x + view.inset) : view.broad ? Theme.gap : practice.x + practice.width + Theme.gap
+        x: !view.practises ? (view.broad ? Theme.gap : view.upright ? view.headLeft : table.x) : view.broad ? Theme.gap : practice.x + practice.width + Theme.gap
         y: !view.broad ? view.wordsAt : view.practises ? practice.y + practice.height + 0.7 * Theme.gap : table.y
         width: view.broad ? view.side - Theme.gap : implicitWidth
         height: view.broad ? implicitHeight : view.wordsHigh
@@ -170,7 +174,7 @@ FocusScope {
         // Nothing counts in a practice.
         visible: !view.practises
         // On a wide screen the tray comes last, so that these words do not run into what stands beside the cards.
-        x: view.broad ? Theme.gap : view.upright ? table.x + table.width - width - view.inset : progress.x + progress.width + Theme.gap
+        x: view.broad ? Theme.gap : view.upright ? view.headRight - width : progress.x + progress.width + Theme.gap
         y: view.broad ? progress.y + progress.height + 0.5 * Theme.gap : view.wordsAt
         width: view.broad ? view.side - Theme.gap : implicitWidth
         height: view.broad ? implicitHeight : view.wordsHigh
@@ -182,10 +186,10 @@ FocusScope {
     }
     Tray {
         id: tray
-        x: view.broad ? view.width - view.side : view.upright ? table.x + view.inset
+        x: view.broad ? view.width - view.side : view.upright ? view.headLeft
          : view.practises ? progress.x + progress.width + Theme.gap : moves.x + moves.width + Theme.gap
         y: view.broad ? table.y : view.upright ? view.wordsAt + view.wordsLine : 12 * Theme.unit
-        width: view.broad ? view.side - Theme.gap : view.upright ? table.width - 2 * view.inset : Math.max(0, end - x - Theme.gap)
+        width: view.broad ? view.side - Theme.gap : view.upright ? view.headRight - view.headLeft : Math.max(0, end - x - Theme.gap)
         // Its shelf ends with the cards.
         readonly property real end: !view.practises ? view.cardsEnd + Theme.gap - 8 * Theme.unit : view.skipsBelow ? view.width : skip.x
         height: view.broad ? table.height : view.upright ? view.lines * view.shelfSlot : view.strip - 8 * Theme.unit
@@ -248,7 +252,7 @@ FocusScope {
         objectName: "skip"
         most: view.broad ? view.side - Theme.gap : view.width - 2 * Theme.gap
         x: view.broad ? Theme.gap : view.skipsBelow ? cards.x + (cards.width - width) / 2
-         : practice.heads ? table.x + table.width - width - view.inset
+         : practice.heads ? view.headRight - width
          : view.above <= table.x + table.width ? table.x + (1 + view.share) / 2 * view.cell + (view.columns - 1) * view.cell - width
          : view.width - width - Theme.gap
         y: view.broad ? table.y + table.height - height
@@ -263,7 +267,7 @@ FocusScope {
 
     Item {
         id: table
-        x: Math.round((view.width - width + (view.upright ? 0 : view.numbers)) / 2)
+        x: Math.round((view.width - width + (view.upright ? view.gutter : view.numbers)) / 2)
         y: Math.round(view.header + view.numbers)
         width: view.cell * view.columns
         height: view.cell * view.rows
@@ -285,7 +289,7 @@ FocusScope {
                 y: Math.min(-view.numbers, -42 * Theme.unit - baselineOffset)
                 width: view.cell
                 text: index + 1
-                font { pixelSize: view.upright ? Theme.small : Theme.body; bold: true }
+                font { pixelSize: view.upright ? Theme.size(36) : Theme.body; bold: true }
                 color: view.markColumn === index ? Theme.deepAmber : Theme.faintInk
                 horizontalAlignment: Text.AlignHCenter
                 // Every card's name tells its row and column.
@@ -296,14 +300,14 @@ FocusScope {
             model: view.rows
             PlainText {
                 required property int index
-                x: -view.numbers + (view.upright ? 9 : 0) * Theme.unit
+                x: view.upright ? -30 * Theme.unit - width : -view.numbers
                 y: index * view.cell
-                width: view.numbers - 30 * Theme.unit
+                width: view.numbers - (view.upright ? 0 : 30 * Theme.unit)
                 height: view.cell
                 text: index + 1
-                font { pixelSize: view.upright ? Theme.small : Theme.body; bold: true }
+                font { pixelSize: view.upright ? Theme.size(36) : Theme.body; bold: true }
                 color: view.markRow === index ? Theme.deepAmber : Theme.faintInk
-                horizontalAlignment: Text.AlignHCenter
+                horizontalAlignment: view.upright ? Text.AlignRight : Text.AlignHCenter
                 verticalAlignment: Text.AlignVCenter
                 Accessible.ignored: true
             }
@@ -410,7 +414,7 @@ FocusScope {
             Rectangle {
                 visible: place.proud > 0
                 anchors.centerIn: parent
-                width: 1.08 * parent.width * (1 + 0.09 * place.cheer)
+                width: 1.06 * parent.width * (1 + 0.09 * place.cheer)
                 height: width
                 opacity: place.proud
                 radius: width * 0.13
