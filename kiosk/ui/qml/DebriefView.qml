@@ -18,12 +18,14 @@ PageFrame {
     // Lines with drawings stand below each other, as large as the page has room for above the card; on a page that has too
     // little for that, without the drawings.
     readonly property bool signed: debrief.lines.length > 0 && debrief.lines[0].sign !== "" && fits(Theme.small, Theme.small, 0.5)
-    readonly property real size: signed ? (width < height ? [38, 36, 34, 32, 30, 29] : [34, 32, 30, 29]).map(Theme.size).find(size => fits(size, noted, apart)) ?? Theme.small
+    readonly property real size: signed ? (width < height ? [38, 36, 34, 32, 30, 29] : [32, 30, 29]).map(Theme.size).find(size => fits(size, noted, apart)) ?? Theme.small
         : room < 720 * Theme.unit ? Theme.small : Theme.reading
     // What stands on the card is read from it at home, in a photograph.
-    readonly property real noted: width < height && fits(Theme.size(32), Theme.reading, 0.5) ? Theme.reading : Theme.small
+    readonly property real noted: [Theme.body, Theme.reading].find(size => fits(Theme.size(32), size, width < height ? 0.5 : 0.4)) ?? Theme.small
+    // How far what stands on the card is from its upper and lower edge.
+    readonly property real pad: (signed && width < height ? 1.5 : 0.75) * Theme.gap
     // How far the lines are apart, in gaps: further where there is room for that.
-    readonly property real apart: (accompanied || width < height) && fits(Theme.size(32), noted, 1) ? 1 : 0.5
+    readonly property real apart: (accompanied || width < height) && fits(Theme.size(32), noted, 1) ? 1 : width > height && noted > Theme.small ? 0.4 : 0.5
     readonly property string kept: words["debrief-take-home"] + (labName === "" ? "" : " · " + labName)
     FontMetrics {
         id: letters
@@ -40,10 +42,10 @@ PageFrame {
         const wide = (column - 2.5 * size - Theme.gap) * exact
         const tall = read.reduce((sum, line) => sum + Math.max(2.5 * size, lines(line.text, size, wide) * 1.09 * Math.ceil(1.37 * size)), 0)
         const beside = (column - 290 * Theme.unit - 2.5 * Theme.gap) * 0.95
-        const noted = [debrief.scanning, words["debrief-code"], debrief.withdrawing, debrief.returning, debrief.questions].reduce((sum, text) => sum + lines(text, cardSize, beside), 0)
+        const noted = [debrief.scanning, width < height ? words["debrief-code"] : "", debrief.withdrawing, debrief.returning, debrief.questions].reduce((sum, text) => sum + lines(text, cardSize, beside), 0)
         const heading = lines(kept, 1.08 * Theme.body, beside)
-        const card = heading * Math.ceil(1.37 * Theme.body) + 1.38 * Theme.size(72) + noted * Math.ceil(1.37 * cardSize) + 2.6 * Theme.gap
-        return tall + (read.length + 1) * apart * Theme.gap + Math.max((width < height ? 326 : 266) * Theme.unit, card)
+        const card = heading * Math.ceil(1.37 * Theme.body) + 1.38 * Theme.size(72) + noted * Math.ceil(1.37 * cardSize) + (width < height ? 4.1 : cardSize > Theme.small ? 2.1 : 2.6) * Theme.gap
+        return tall + (read.length + 1) * apart * Theme.gap + Math.max((width < height ? 362 : cardSize > Theme.small ? 330 : 266) * Theme.unit, card)
     }
     // What is added to that where an upright page has room for it.
     readonly property real further: !signed || width > height ? 0
@@ -110,7 +112,7 @@ PageFrame {
                 id: keepsake
                 y: parts.cardFirst ? 0 : texts.height + parts.apart
                 width: pane.width
-                height: visible ? Math.max(qr.height, told.height) + 1.5 * Theme.gap : 0
+                height: visible ? Math.max(qr.height, told.height) + 2 * view.pad : 0
                 // Who is not stored has no code, and may have questions all the same.
                 visible: view.debrief.code !== "" || view.debrief.questions !== ""
                 radius: Theme.radius
@@ -122,7 +124,7 @@ PageFrame {
                     id: qr
                     objectName: "qr"
                     visible: view.debrief.code !== ""
-                    anchors { left: parent.left; leftMargin: 0.75 * Theme.gap; verticalCenter: parent.verticalCenter }
+                    anchors { left: parent.left; leftMargin: view.pad; verticalCenter: parent.verticalCenter }
                     width: view.square * view.debrief.squares
                     height: width
                     color: "white"
@@ -136,6 +138,7 @@ PageFrame {
                 }
                 Column {
                     id: told
+                    readonly property bool stacked: view.signed && view.width < view.height
                     anchors {
                         left: qr.right; leftMargin: (qr.visible ? 1.5 : 0.25) * Theme.gap
                         right: parent.right; rightMargin: Theme.gap
@@ -158,16 +161,16 @@ PageFrame {
                         font.pixelSize: view.noted
                         color: Theme.ink
                     }
-                    // The code stands below its name, or beside it where the page has little height.
+                    // The code stands below its name on an upright screen, and beside it on others.
                     Item {
                         width: parent.width
-                        height: view.signed ? code.y + code.height : Math.max(called.height, code.height)
+                        height: told.stacked ? code.y + code.height : Math.max(called.height, code.height)
                         visible: view.debrief.code !== ""
                         PlainText {
                             id: called
                             x: Theme.across(0, width, parent.width)
-                            y: view.signed ? 0.35 * Theme.gap : (parent.height - height) / 2
-                            width: (view.signed ? 1 : 0.45) * parent.width
+                            y: told.stacked ? 0.35 * Theme.gap : (parent.height - height) / 2
+                            width: (told.stacked ? 1 : 0.45) * parent.width
                             text: view.words["debrief-code"]
                             font { pixelSize: view.noted; bold: true }
                             horizontalAlignment: Text.AlignLeft
@@ -176,10 +179,10 @@ PageFrame {
                         }
                         PlainText {
                             id: code
-                            readonly property real from: view.signed ? 0 : called.contentWidth + Theme.gap
+                            readonly property real from: told.stacked ? 0 : called.contentWidth + Theme.gap
                             objectName: "code"
                             x: Theme.across(from, width, parent.width)
-                            y: view.signed ? called.y + called.height : 0
+                            y: told.stacked ? called.y + called.height : 0
                             width: parent.width - from
                             text: view.debrief.code
                             horizontalAlignment: Text.AlignLeft
