@@ -149,6 +149,8 @@ def test_the_first_start_screen_takes_a_tap_before_any_page_is_made(qtbot: QtBot
         assert not app.screens.kiosk.takes_input
         qtbot.waitUntil(lambda: bool(app.window.property("prepares")))
         assert app.screens.kiosk.takes_input
+        Booth(app, tmp_path).click("start-en")
+        qtbot.waitUntil(lambda: app.screens.kiosk.shown == "introduction")
 
 
 def test_larger_text_is_larger_and_still_inside(make_booth: MakeBooth) -> None:
