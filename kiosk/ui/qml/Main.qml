@@ -209,8 +209,7 @@ Window {
             width: root.width
             height: root.height
             focus: visible && root.kiosk.bare
-            sourceComponent: FocusScope {
-                focus: true
+            sourceComponent: Item {
                 FormView {
                     id: formView
                     x: stage.x
@@ -258,6 +257,7 @@ Window {
                 upright: !root.wide
                 prepares: root.prepares
                 said: helper.says
+                faceAt: root.wide || !root.avatar.present ? 0 : helper.y + helper.faceTop - stage.y
                 asks: helper.asks
                 onWon: if (!root.board.practice) feast.begin()
                 // How a practice goes is clear by now.
