@@ -41,7 +41,7 @@ PageFrame {
         const exact = Theme.unit < 0.9 ? 0.95 : size > Theme.size(34) ? 0.93 : 0.98
         const wide = (column - 2.5 * size - Theme.gap) * exact
         const tall = read.reduce((sum, line) => sum + Math.max(2.5 * size, lines(line.text, size, wide) * 1.09 * Math.ceil(1.37 * size)), 0)
-        const beside = (column - 290 * Theme.unit - 2.5 * Theme.gap) * 0.95
+        const beside = (column - 290 * Theme.unit - (width < height ? 4 : 2.5) * Theme.gap) * 0.95
         const noted = [debrief.scanning, width < height ? words["debrief-code"] : "", debrief.withdrawing, debrief.returning, debrief.questions].reduce((sum, text) => sum + lines(text, cardSize, beside), 0)
         const heading = lines(kept, 1.08 * Theme.body, beside)
         const card = heading * Math.ceil(1.37 * Theme.body) + 1.38 * Theme.size(72) + noted * Math.ceil(1.37 * cardSize) + (width < height ? 4.1 : cardSize > Theme.small ? 2.1 : 2.6) * Theme.gap
@@ -49,7 +49,7 @@ PageFrame {
     }
     // What is added to that where an upright page has room for it.
     readonly property real further: !signed || width > height ? 0
-        : Math.max(0, Math.min(Theme.gap, (0.95 * room - estimate(size, noted, apart)) / read.length))
+        : Math.max(0, Math.min(Theme.gap, (0.92 * room - estimate(size, noted, apart)) / read.length))
     function lines(text: string, size: real, room: real): int {
         return text.split("\n").reduce((sum, part) => sum + Math.ceil(letters.advanceWidth(part) * size / 100 / room), 0)
     }
