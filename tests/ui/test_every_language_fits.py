@@ -223,8 +223,7 @@ def assert_no_needless_scrolling(shown: QQuickWindow, moment: str) -> None:
         return
     above, page = more.parentItem(), more
     while above is not None:
-        # What makes a page late is as large as the window.
-        page = above if above.metaObject().className().partition("_QML")[0].endswith("View") else page
+        page = above if above.inherits("QQuickFocusScope") else page
         above = above.parentItem()
     top = min(painted(text).top() for text in texts(page))
     low = max(whole(control).bottom() for control in controls(page))
