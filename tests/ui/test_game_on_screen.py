@@ -389,7 +389,7 @@ def test_while_one_card_is_up_and_the_helper_is_silent_the_screen_asks_for_a_sec
 
 
 @STILL
-def test_in_a_practice_the_helper_asks_for_a_second_card(app: App) -> None:
+def test_in_a_practice_the_helper_tells_how_a_move_goes_on(app: App) -> None:
     def said() -> set[str]:
         return {str(i.property("text")) for i in items(app.window.contentItem()) if i.property("text")}
 
@@ -402,6 +402,11 @@ def test_in_a_practice_the_helper_asks_for_a_second_card(app: App) -> None:
     screens.avatar.appear(present=False)
     assert "Now turn over a second card." not in said()
     assert "Now a second card" in said()
+    board.lock(BoardWait.TURNING_BACK)
+    assert "One moment, the cards turn back" in said()
+    screens.avatar.appear(present=True)
+    assert "One moment, the cards turn back." in said()
+    assert "One moment, the cards turn back" not in said()
 
 
 @pytest.mark.parametrize("moves", [True], indirect=True)

@@ -93,6 +93,7 @@ game-moves =
 game-begin = Tocca a te. Scopri una carta qualsiasi.
 game-second = Ora una seconda carta
 practice-second = Ora scopri una seconda carta.
+practice-turning-back = Un momento, le carte si coprono di nuovo.
 game-found = Trovate tutte!
 game-wait-speaking = Un momento, ho un suggerimento per te
 game-wait-turning-back = Un momento, le carte si coprono di nuovo

@@ -17,8 +17,8 @@ FocusScope {
     property bool prepares: false
     // Whether a sentence of the assistant stands on the screen.
     property bool said: false
-    // Whether the assistant's bubble asks for the second card.
-    property bool asks: false
+    // Whether the assistant's bubble tells how the move goes on.
+    property bool told: false
     // Where the face begins that stands below the cards, in this item; 0 where none does.
     property real faceAt: 0
     // Asked of the board once, and not by every card.
@@ -98,8 +98,8 @@ FocusScope {
     property int turning: 0
     // Where the last pair lies, once all are found.
     property list<int> last: []
-    // The middle of the cards.
-    readonly property real middle: table.x + table.width / 2
+    // The middle of the cards; upright, that of the page, as the face below it.
+    readonly property real middle: upright ? width / 2 : table.x + table.width / 2
     // Every pair was found, and is in the tray.
     signal won()
     // The first pair was found.
@@ -206,13 +206,13 @@ FocusScope {
         id: pill
         objectName: "pill"
         // What comes next, until the assistant has something to say about it.
-        readonly property bool asksSecond: view.board.oneUp && view.open && !view.marks && !view.said && !view.asks
+        readonly property bool asksSecond: view.board.oneUp && view.open && !view.marks && !view.said && !view.told
         readonly property real under: cards.y + cards.height + (view.upright ? 20 : 8) * Theme.unit
         x: Math.round(Math.max(0, Math.min(view.width - width, view.middle - width / 2)))
-        // In the middle between cards and face, where no sentence stands there.
-        y: view.speaking || view.said ? under : Math.round(Math.max(under, (cards.y + cards.height + view.faceAt - height) / 2))
+        // Above the face, where no sentence stands there.
+        y: view.speaking || view.said ? under : Math.round(Math.max(under, view.faceAt - 1.5 * height))
         // A hint that is seen or read needs no announcement any more.
-        visible: asksSecond || (view.board.wait !== "" && !(view.speaking && (view.marks || view.said)))
+        visible: asksSecond || (view.board.wait !== "" && !view.told && !(view.speaking && (view.marks || view.said)))
         opacity: visible ? 1 : 0
         Behavior on opacity { NumberAnimation { duration: Theme.motion } }
         width: waiting.width + (asksSecond ? 2.6 * Theme.gap : dots.width + 2.8 * Theme.gap)

@@ -258,7 +258,7 @@ Window {
                 prepares: root.prepares
                 said: helper.says
                 faceAt: root.wide || !root.avatar.present ? 0 : helper.y + helper.faceTop - stage.y
-                asks: helper.asks
+                told: helper.tells
                 onWon: if (!root.board.practice) feast.begin()
                 // How a practice goes is clear by now.
                 onFirstFound: if (root.board.practice && !root.board.speaking) helper.fade()
@@ -356,9 +356,11 @@ Window {
         hushed: root.asking && !root.wide
         readonly property bool done: boardPage.visible && boardPage.view.last.length > 0 && !root.board.practice
         // How a move goes on is said in the practice; in the game a line under the cards says it.
-        readonly property bool second: boardPage.visible && root.board.practice && root.board.oneUp && root.board.open && !boardPage.view.marks
-        readonly property bool asks: second && aside !== "" && !says
-        readonly property string turn: second ? root.words["practice-second"] : done ? root.words["game-found"]
+        readonly property bool practises: boardPage.visible && root.board.practice
+        readonly property bool second: practises && root.board.oneUp && root.board.open && !boardPage.view.marks
+        readonly property bool missed: practises && root.board.missed
+        readonly property bool tells: (second || missed) && aside !== "" && !says
+        readonly property string turn: second ? root.words["practice-second"] : missed ? root.words["practice-turning-back"] : done ? root.words["game-found"]
             : boardPage.visible && root.board.untouched && root.board.open ? root.words["game-begin"] : ""
         aside: !root.avatar.present || root.whole ? "" : !root.wide ? (root.kiosk.asks === "" && !root.kiosk.asksStillThere ? turn : "")
              : root.kiosk.asksStillThere ? root.words["still-there-line"]

@@ -39,6 +39,7 @@ FIXED = (
     "game-begin",
     "game-second",
     "practice-second",
+    "practice-turning-back",
     "game-found",
     "result-title",
     "result-pairs-label",
