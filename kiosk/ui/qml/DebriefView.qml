@@ -23,33 +23,46 @@ PageFrame {
     // What stands on the card is read from it at home, in a photograph.
     readonly property real noted: [Theme.body, Theme.reading].find(size => fits(Theme.size(32), size, width < height ? 0.5 : 0.4)) ?? Theme.small
     // How far what stands on the card is from its upper and lower edge.
-    readonly property real pad: (signed && width < height ? 1.5 : 0.75) * Theme.gap
+    readonly property real pad: (signed && width < height ? 1.5 : signed && noted > Theme.small ? 0.5 : 0.75) * Theme.gap
     // How far the lines are apart, in gaps: further where there is room for that.
-    readonly property real apart: (accompanied || width < height) && fits(Theme.size(32), noted, 1) ? 1 : width > height && noted > Theme.small ? 0.4 : 0.5
+    readonly property real apart: (width < height ? [1] : accompanied ? [1.2, 1, 0.8, 0.6] : []).find(apart => fits(Theme.size(32), noted, apart))
+        ?? (width > height && noted > Theme.small ? 0.4 : 0.5)
+    // Beside a drawing, a heading and its text stand close, so that they are seen as one.
+    readonly property real leading: 0.95
     readonly property string kept: words["debrief-take-home"] + (labName === "" ? "" : " · " + labName)
     FontMetrics {
         id: letters
         font.pixelSize: 100
     }
+    FontMetrics {
+        id: boldLetters
+        font { pixelSize: 100; bold: true }
+    }
     // Whether the lines have this size at most, with the card below them in its own.
     function fits(size: real, cardSize: real, apart: real): bool {
-        return estimate(size, cardSize, apart) <= (width < height ? 0.91 : 1) * room
+        return estimate(size, cardSize, apart) <= (width < height ? 0.93 : 1) * room
     }
     // How high lines and card are about then.
     function estimate(size: real, cardSize: real, apart: real): real {
         // Small letters are set on whole pixels, which makes them wider.
-        const exact = Theme.unit < 0.9 ? 0.95 : size > Theme.size(34) ? 0.93 : 0.98
-        const wide = (column - 2.5 * size - Theme.gap) * exact
-        const tall = read.reduce((sum, line) => sum + Math.max(2.5 * size, lines(line.text, size, wide) * 1.09 * Math.ceil(1.37 * size)), 0)
+        const wide = (column - 2.5 * size - Theme.gap) * (Theme.unit < 0.9 ? 0.95 : 0.98)
+        const tall = read.reduce((sum, line) => sum + Math.max(2.5 * size, broken(line.text, size, wide) * 1.01 * leading * Math.ceil(1.37 * size)), 0)
         const beside = (column - 290 * Theme.unit - (width < height ? 4 : 2.5) * Theme.gap) * 0.95
         const noted = [debrief.scanning, width < height ? words["debrief-code"] : "", debrief.withdrawing, debrief.returning, debrief.questions].reduce((sum, text) => sum + lines(text, cardSize, beside), 0)
         const heading = lines(kept, 1.08 * Theme.body, beside)
-        const card = heading * Math.ceil(1.37 * Theme.body) + 1.38 * Theme.size(72) + noted * Math.ceil(1.37 * cardSize) + (width < height ? 4.1 : cardSize > Theme.small ? 2.1 : 2.6) * Theme.gap
-        return tall + (read.length + 1) * apart * Theme.gap + Math.max((width < height ? 362 : cardSize > Theme.small ? 330 : 266) * Theme.unit, card)
+        const card = heading * Math.ceil(1.37 * Theme.body) + 1.38 * Theme.size(72) + noted * Math.ceil(1.37 * cardSize) + (width < height ? 4.1 : cardSize > Theme.small ? 1.8 : 2.6) * Theme.gap
+        return tall + (read.length + 1) * apart * Theme.gap + Math.max((width < height ? 362 : cardSize > Theme.small ? 318 : 266) * Theme.unit, card)
     }
     // What is added to that where an upright page has room for it.
     readonly property real further: !signed || width > height ? 0
         : Math.max(0, Math.min(Theme.gap, (0.92 * room - estimate(size, noted, apart)) / read.length))
+    // The lines of a point, whose heading is bold; lines that break at words are not full.
+    function broken(text: string, size: real, room: real): int {
+        return text.split("\n").reduce((sum, part, index) => {
+            const share = (index === 0 ? boldLetters : letters).advanceWidth(part) * size / 100 / room
+            return sum + Math.ceil(share > 1 ? 1.06 * share : share)
+        }, 0)
+    }
     function lines(text: string, size: real, room: real): int {
         return text.split("\n").reduce((sum, part) => sum + Math.ceil(letters.advanceWidth(part) * size / 100 / room), 0)
     }
@@ -101,6 +114,7 @@ PageFrame {
                                 text: modelData.text
                                 sign: view.signed ? modelData.sign : ""
                                 size: view.size
+                                leading: view.signed ? view.leading : 1.08
                                 // Among lines with headings, one without is a heading itself.
                                 strong: lead === "" && view.read.some(line => line.text.includes("\n"))
                             }

@@ -13,6 +13,7 @@ Item {
     property string sign: ""
     property bool strong: false
     property real size: Theme.body
+    property real leading: 1.08
 
     // On a square of 24.
     readonly property var drawings: ({
@@ -78,14 +79,14 @@ Item {
             text: line.lead
             horizontalAlignment: Text.AlignLeft
             font { pixelSize: line.size; bold: true }
-            lineHeight: 1.08
+            lineHeight: line.leading
         }
         Balanced {
             width: parent.width
             text: line.lead === "" ? line.text : line.text.slice(line.lead.length + 1)
             horizontalAlignment: Text.AlignLeft
             font { pixelSize: line.size; bold: line.strong }
-            lineHeight: 1.08
+            lineHeight: line.leading
         }
     }
 }
