@@ -63,6 +63,7 @@ console-shortcut-quit = leave the kiosk
 console-names-show = Show the conditions’ names
 console-names-hide = Hide the conditions’ names
 console-test-voice = Test
+console-test-the-voice = Test the voice
 console-test-sentence = Good morning. If you hear this sentence, the voice works.
 console-supervisor = Supervisor
 console-supervisor-there = starts the kiosk again if it fails
@@ -217,7 +218,7 @@ console-quit = Leave the kiosk
 
 console-alarms = Alarms
 console-alarms-none = None
-console-alarms-none-but-notice = None; the notice is not one
+console-alarms-none-but-notice = None; only the notice above
 console-alarm-until = {" "}(over at { $time })
 console-alarm-robot-lost = The robot is lost; the avatar helps
 console-alarm-voice-lost = No sentence is heard: look at the loudspeaker and the sound settings

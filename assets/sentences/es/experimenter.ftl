@@ -63,6 +63,7 @@ console-shortcut-quit = salir
 console-names-show = Mostrar los nombres de las condiciones
 console-names-hide = Ocultar los nombres de las condiciones
 console-test-voice = Probar
+console-test-the-voice = Probar la voz
 console-test-sentence = Buenos días. Si oyes esta frase, la voz funciona.
 console-supervisor = Supervisor
 console-supervisor-there = reinicia el quiosco si falla
@@ -217,7 +218,7 @@ console-quit = Salir del quiosco
 
 console-alarms = Alarmas
 console-alarms-none = Ninguna
-console-alarms-none-but-notice = Ninguna; el aviso no lo es
+console-alarms-none-but-notice = Ninguna; solo el aviso de arriba
 console-alarm-until = {" "}(terminó a las { $time })
 console-alarm-robot-lost = El robot no responde; ayuda el avatar
 console-alarm-voice-lost = Las frases no se oyen: revise el altavoz y los ajustes de sonido

@@ -63,6 +63,7 @@ console-shortcut-quit = esci
 console-names-show = Mostra i nomi delle condizioni
 console-names-hide = Nascondi i nomi delle condizioni
 console-test-voice = Prova
+console-test-the-voice = Prova la voce
 console-test-sentence = Buongiorno. Se senti questa frase, la voce funziona.
 console-supervisor = Supervisore
 console-supervisor-there = riavvia il chiosco in caso di guasto
@@ -217,7 +218,7 @@ console-quit = Esci dal chiosco
 
 console-alarms = Allarmi
 console-alarms-none = Nessuno
-console-alarms-none-but-notice = Nessuno; l’avviso non lo è
+console-alarms-none-but-notice = Nessuno; solo l’avviso qui sopra
 console-alarm-until = {" "}(finito alle { $time })
 console-alarm-robot-lost = Il robot non risponde più; aiuta l’avatar
 console-alarm-voice-lost = Le frasi non si sentono: guardare l’altoparlante e le impostazioni dell’audio

@@ -380,6 +380,7 @@ WORDS = (
     "console-names-show",
     "console-names-hide",
     "console-test-voice",
+    "console-test-the-voice",
     "console-close",
     "console-cancel",
     "console-key-delete",

@@ -33,7 +33,7 @@ from tests.ui.experimenter.conftest import Desk, MakeDesk, Witness
 LISTED = {"randomisation": {"target_n": {"tom": 2, "notom": 2}, "block_size": 4}}
 
 
-NO_ALARM = "None; the notice is not one"
+NO_ALARM = "None; only the notice above"
 
 
 def shows(item: QQuickItem, words: str) -> bool:

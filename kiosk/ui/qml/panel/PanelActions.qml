@@ -16,6 +16,8 @@ PanelSection {
     readonly property bool ample: wide && least > 0 && choices.underWay && !choices.canBeNext && Theme.textSize <= 1.15
     readonly property real tall: (ample ? 110 : wide ? 84 : 72) * Theme.unit
 
+    readonly property real lettering: (Theme.textSize > 1.15 ? 1 : wide ? 1.2 : 1.3) * Theme.dense
+
     title: words["console-actions"]
 
     // How many stand in a row; one, where its words need more.
@@ -25,13 +27,14 @@ PanelSection {
         readonly property real each: (room - (row - 1) * actions.space) / row - 0.5
         least: actions.tall
         width: implicitWidth <= each ? each : room
+        font.pixelSize: actions.lettering
     }
     // What is pressed all day: the largest.
     component Main: PanelButton {
         readonly property bool alone: [actions.choices.onBreak, actions.choices.canBeNext, actions.choices.underWay].filter(Boolean).length === 1
         least: (actions.ample ? 124 : actions.wide ? 108 : alone ? 76 : 92) * Theme.unit
         width: actions.wide || alone ? parent?.width ?? Infinity : ((parent?.width ?? Infinity) - actions.space) / 2 - 0.5
-        font.pixelSize: Theme.dense * 1.18
+        font.pixelSize: 1.12 * actions.lettering
     }
 
     Flow {
@@ -88,6 +91,8 @@ PanelSection {
         action: "break"
         even: true
         least: actions.tall
+        size: actions.size
+        lettering: actions.lettering
         title: actions.words["console-break"]
         options: actions.choices.breaks ?? []
         chosen: actions.choices.break ?? ""
@@ -116,7 +121,7 @@ PanelSection {
         y: end.y - height - 8 * Theme.unit
         width: end.width
         text: actions.words["console-abort-then"]
-        font.pixelSize: Theme.dense
+        font.pixelSize: actions.size
         color: Theme.faintInk
         horizontalAlignment: Text.AlignLeft
         wrapMode: Text.Wrap
@@ -130,6 +135,7 @@ PanelSection {
         width: actions.wide ? actions.width - 1.6 * Theme.gap : actions.width / 2 - 1.8 * Theme.gap
         least: actions.tall
         grave: true
+        font.pixelSize: actions.lettering
         words: actions.words["console-abort"]
         onClicked: actions.panel.wish("abort", "")
     }

@@ -9,9 +9,10 @@ PlainText {
     property string column: ""      // its heading, for those who hear one field after another
     property bool number: false
     property real size: Theme.dense
+    property real headSize: size
 
     text: words
-    font.pixelSize: heading ? Math.max(Theme.denser, 0.84 * size) : size
+    font.pixelSize: heading ? headSize : size
     color: heading ? Theme.faintInk : Theme.ink
     horizontalAlignment: number ? Text.AlignRight : Text.AlignLeft
     wrapMode: Text.Wrap

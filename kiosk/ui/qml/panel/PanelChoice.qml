@@ -14,6 +14,9 @@ Column {
     // Whether they take all of the width, in one row where their words fit.
     property bool even: false
     property real least: 68 * Theme.unit
+    // How large its title and its answers are written.
+    property real size: Theme.dense
+    property real lettering: Theme.dense
     readonly property real each: (width - (options.length - 1) * 9 * Theme.unit) / Math.max(1, options.length) - 0.5
     signal picked(string value)
 
@@ -24,7 +27,7 @@ Column {
         width: parent.width
         visible: choice.titled
         text: choice.title
-        font.pixelSize: Theme.dense
+        font.pixelSize: choice.size
         color: Theme.faintInk
         wrapMode: Text.Wrap
     }
@@ -40,6 +43,7 @@ Column {
                 chosen: modelData.value === choice.chosen
                 choosable: true
                 least: choice.least
+                font.pixelSize: choice.lettering
                 width: choice.even && implicitWidth <= choice.each ? choice.each : Math.min(implicitWidth, choice.width)
                 Accessible.role: Accessible.RadioButton
                 Accessible.name: `${choice.title} ${words}`

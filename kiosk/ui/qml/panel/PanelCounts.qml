@@ -18,6 +18,13 @@ PanelSection {
     // Past a list is only what there is one for.
     readonly property int shown: columns.filter(told).length
 
+    // The heads are as large as the numbers, where the longest of their words fits its column.
+    readonly property real headSize: Math.max(Theme.denser, Math.min(size, 97 * other
+        / Math.max(...[heading, ...columns.filter(told).map(column => words["console-counts-" + column])].join(" ").split(" ").map(word => letters.advanceWidth(word)))))
+    FontMetrics {
+        id: letters
+        font.pixelSize: 100
+    }
     readonly property list<string> columns: ["dropped", "overridden", "beyond", "withdrawn"]
 
     function told(column: string): bool {
@@ -34,7 +41,7 @@ PanelSection {
     Row {
         spacing: counts.between
         PlainText { width: counts.first; text: " "; font.pixelSize: counts.size }
-        PanelCell { anchors.bottom: parent.bottom; width: counts.other; words: counts.heading; heading: true; number: !counts.records.listed; size: counts.size }
+        PanelCell { anchors.bottom: parent.bottom; width: counts.other; words: counts.heading; heading: true; number: !counts.records.listed; headSize: counts.headSize }
         Repeater {
             model: counts.columns
             delegate: PanelCell {
@@ -45,7 +52,7 @@ PanelSection {
                 words: counts.words["console-counts-" + modelData]
                 heading: true
                 number: true
-                size: counts.size
+                headSize: counts.headSize
             }
         }
     }
@@ -114,10 +121,11 @@ PanelSection {
         words: counts.named ? counts.words["console-names-hide"] : counts.words["console-names-show"]
         onClicked: counts.asked()
     }
-    PlainText {
+    Balanced {
         width: parent.width
         text: counts.records.visits
-        font.pixelSize: Theme.denser
+        horizontalAlignment: Text.AlignLeft
+        font.pixelSize: Math.max(Theme.denser, 0.94 * counts.size)
         color: Theme.faintInk
         wrapMode: Text.Wrap
     }

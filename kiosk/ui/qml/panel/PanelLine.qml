@@ -12,6 +12,8 @@ Item {
     property string notWell: ""
     // What a button behind the words says; none without.
     property string action: ""
+    // What it is called for those who do not see its line.
+    property string actionName: action
     property bool ready: true
     // What the words leave free at the end, where one of several lines has a button, so that all of them are as long.
     property real beside: 0
@@ -55,6 +57,10 @@ Item {
         visible: row.action !== ""
         enabled: row.ready
         words: row.action
+        Accessible.name: row.actionName
+        // A finger may miss the line by as much as it needs, but what is seen of the button is no higher than the line.
+        topInset: Math.max(0, (least - Math.max(row.least, 1.7 * row.size)) / 2)
+        bottomInset: topInset
         onClicked: row.asked()
     }
 }

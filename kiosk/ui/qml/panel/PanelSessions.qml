@@ -15,11 +15,18 @@ PanelSection {
     component Field: PanelCell {
         required property real share
         size: sessions.size
+        headSize: sessions.headSize
         width: Math.floor(sessions.room * share)
     }
     readonly property real step: 8 * Theme.unit
     // What the fields of a line share: the mark and the steps between them are not theirs.
     readonly property real room: width - 1.6 * Theme.gap - size - 5 * step
+    // As large as what stands below them, where the longest word fits its column.
+    readonly property real headSize: Math.max(Theme.denser, Math.min(size, 97 * 0.2 * room / letters.advanceWidth(words["console-sessions-condition"])))
+    FontMetrics {
+        id: letters
+        font.pixelSize: 100
+    }
 
     Row {
         visible: sessions.records.sessions.length > 0

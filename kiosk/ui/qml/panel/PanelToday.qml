@@ -14,7 +14,7 @@ Item {
     required property real seen
     readonly property var words: panel.words
     // An upright screen has room for longer lines, and so for larger ones.
-    readonly property real size: Theme.dense * (wide ? 1.08 : 1.18)
+    readonly property real size: Theme.dense * (wide ? 1.15 : 1.18)
     // Whole pixels: a card at a fraction of one would lose its right edge.
     readonly property real side: Math.floor(wide ? width * 0.265 : width)
     readonly property real main: wide ? width - side - space : width
@@ -30,10 +30,11 @@ Item {
     readonly property real apart: (!wide ? 9 : room > 0 ? 2 : 14) * Theme.unit
 
     // What a test takes of each line of the status.
-    readonly property real testing: Math.ceil(letters.advanceWidth + 42 * Theme.unit)
+    readonly property string test: words[wide ? "console-test-voice" : "console-test-the-voice"]
+    readonly property real testing: panel.choices.underWay ? 0 : Math.ceil(letters.advanceWidth + 42 * Theme.unit)
     TextMetrics {
         id: letters
-        text: today.words["console-test-voice"]
+        text: today.test
         font.pixelSize: Theme.dense
     }
 
@@ -85,8 +86,10 @@ Item {
                     beside: today.testing
                     // The notice above tells what it is.
                     notWell: today.words["console-health-not"]
-                    action: modelData.part === "voice" ? today.words["console-test-voice"] : ""
-                    ready: !today.panel.choices.underWay && !today.panel.choices.muted
+                    // While a visitor is there, the voice is theirs.
+                    action: modelData.part === "voice" && !today.panel.choices.underWay ? today.test : ""
+                    actionName: today.words["console-test-the-voice"]
+                    ready: !today.panel.choices.muted
                     onAsked: today.panel.wish("test_voice", "")
                 }
             }

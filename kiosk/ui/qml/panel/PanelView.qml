@@ -140,7 +140,7 @@ FocusScope {
             anchors { left: parent.left; right: shortcuts.visible ? shortcuts.left : parent.right; verticalCenter: parent.verticalCenter }
             anchors.rightMargin: shortcuts.visible ? Theme.gap : 0
             text: view.words["console-keys"]
-            font.pixelSize: view.wide ? Theme.dense : Theme.denser
+            font.pixelSize: Theme.dense
             color: Theme.faintInk
             wrapMode: Text.Wrap
         }
