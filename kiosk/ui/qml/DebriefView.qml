@@ -11,7 +11,7 @@ PageFrame {
     required property string labName
 
     // As much of the height as the text leaves, so that a page that fits does not scroll.
-    readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min((signed && width < height ? 340 : 350) * Theme.unit, room - texts.height - 2.6 * Theme.gap))
+    readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min((signed && width < height ? 340 : 350) * Theme.unit, room - texts.height - (pad < 0.7 * Theme.gap ? 2.1 : 2.6) * Theme.gap))
     // Whole pixels for each square, so that their edges are sharp.
     readonly property int square: Math.max(2, Math.floor(side / Math.max(1, debrief.squares)))
 
@@ -25,10 +25,10 @@ PageFrame {
     // How far what stands on the card is from its upper and lower edge.
     readonly property real pad: (signed && width < height ? 1.5 : signed && noted > Theme.small ? 0.5 : 0.75) * Theme.gap
     // How far the lines are apart, in gaps: further where there is room for that.
-    readonly property real apart: (width < height ? [1] : accompanied ? [1.2, 1, 0.8, 0.6] : []).find(apart => fits(Theme.size(32), noted, apart))
+    readonly property real apart: (width < height ? [1] : accompanied ? [1.1, 0.9, 0.7] : []).find(apart => fits(Theme.size(32), noted, apart))
         ?? (width > height && noted > Theme.small ? 0.4 : 0.5)
     // Beside a drawing, a heading and its text stand close, so that they are seen as one.
-    readonly property real leading: 0.95
+    readonly property real leading: 0.9
     readonly property string kept: words["debrief-take-home"] + (labName === "" ? "" : " · " + labName)
     FontMetrics {
         id: letters
@@ -40,13 +40,13 @@ PageFrame {
     }
     // Whether the lines have this size at most, with the card below them in its own.
     function fits(size: real, cardSize: real, apart: real): bool {
-        return estimate(size, cardSize, apart) <= (width < height ? 0.93 : 1) * room
+        return estimate(size, cardSize, apart) <= (width < height ? 0.93 : Theme.unit < 0.9 ? 0.96 : 1) * room
     }
     // How high lines and card are about then.
     function estimate(size: real, cardSize: real, apart: real): real {
         // Small letters are set on whole pixels, which makes them wider.
         const wide = (column - 2.5 * size - Theme.gap) * (Theme.unit < 0.9 ? 0.95 : 0.98)
-        const tall = read.reduce((sum, line) => sum + Math.max(2.5 * size, broken(line.text, size, wide) * 1.01 * leading * Math.ceil(1.37 * size)), 0)
+        const tall = read.reduce((sum, line) => sum + Math.max(2.5 * size, broken(line.text, size, wide) * (leading + 0.06) * Math.ceil(1.37 * size)), 0)
         const beside = (column - 290 * Theme.unit - (width < height ? 4 : 2.5) * Theme.gap) * 0.95
         const noted = [debrief.scanning, width < height ? words["debrief-code"] : "", debrief.withdrawing, debrief.returning, debrief.questions].reduce((sum, text) => sum + lines(text, cardSize, beside), 0)
         const heading = lines(kept, 1.08 * Theme.body, beside)

@@ -18,8 +18,8 @@ PanelSection {
     // Past a list is only what there is one for.
     readonly property int shown: columns.filter(told).length
 
-    // The heads are as large as the numbers, where the longest of their words fits its column.
-    readonly property real headSize: Math.max(Theme.denser, Math.min(size, 97 * other
+    // The heads are about as large as the numbers, where the longest of their words fits its column.
+    readonly property real headSize: Math.max(Theme.denser, Math.min(0.93 * size, 97 * other
         / Math.max(...[heading, ...columns.filter(told).map(column => words["console-counts-" + column])].join(" ").split(" ").map(word => letters.advanceWidth(word)))))
     FontMetrics {
         id: letters

@@ -21,8 +21,8 @@ PanelSection {
     readonly property real step: 8 * Theme.unit
     // What the fields of a line share: the mark and the steps between them are not theirs.
     readonly property real room: width - 1.6 * Theme.gap - size - 5 * step
-    // As large as what stands below them, where the longest word fits its column.
-    readonly property real headSize: Math.max(Theme.denser, Math.min(size, 97 * 0.2 * room / letters.advanceWidth(words["console-sessions-condition"])))
+    // About as large as what stands below them, where the longest word fits its column.
+    readonly property real headSize: Math.max(Theme.denser, Math.min(0.93 * size, 97 * 0.2 * room / letters.advanceWidth(words["console-sessions-condition"])))
     FontMetrics {
         id: letters
         font.pixelSize: 100
@@ -59,9 +59,9 @@ PanelSection {
     }
     // Lines for those to come, where the card ends beside another one.
     Repeater {
-        readonly property real step: 1.37 * sessions.size + sessions.apart
+        readonly property real step: 1.4 * sessions.size + sessions.apart
         readonly property int taken: sessions.records.sessions.length + 2
-        model: sessions.records.sessions.length === 0 ? 0 : Math.max(0, Math.min(5 - taken + 2, Math.floor((sessions.least - 2.4 * Theme.gap) / step) - taken + 1))
+        model: sessions.records.sessions.length === 0 ? 0 : Math.max(0, Math.min(7 - taken, Math.floor((sessions.least - 2.4 * Theme.gap - 1.6 * sessions.size + sessions.apart) / step) - taken + 1))
         delegate: Item {
             width: parent?.width ?? 0
             height: Math.ceil(1.37 * sessions.size)

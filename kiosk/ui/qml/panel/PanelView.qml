@@ -135,11 +135,13 @@ FocusScope {
         id: foot
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom; margins: view.space }
         height: Math.max(keys.height, shortcuts.visible ? shortcuts.height : 0)
-        PlainText {
+        Balanced {
             id: keys
             anchors { left: parent.left; right: shortcuts.visible ? shortcuts.left : parent.right; verticalCenter: parent.verticalCenter }
             anchors.rightMargin: shortcuts.visible ? Theme.gap : 0
             text: view.words["console-keys"]
+            horizontalAlignment: Text.AlignLeft
+            least: 0.75
             font.pixelSize: Theme.dense
             color: Theme.faintInk
             wrapMode: Text.Wrap
