@@ -91,7 +91,10 @@ def test_the_way_to_agree_stands_back_until_the_required_boxes_are_ticked_and_ca
     assert done == ["agreed"]
     booth.app.screens.consent.show_ticks(REQUIRED)
     assert not booth.item("agree").property("quiet")
-    assert (booth.item("consent-waits").property("text"), booth.item("consent-waits").height()) == ("", height)
+    assert (booth.item("consent-waits").property("text"), booth.item("consent-waits").height()) == (
+        "That is all that is needed.",
+        height,
+    )
 
 
 def test_what_is_missing_is_said_in_words_until_it_is_ticked(booth: Booth, done: Done) -> None:

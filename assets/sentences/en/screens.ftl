@@ -41,6 +41,8 @@ consent-waits =
         [one] To take part, tick the box that is needed
        *[other] To take part, tick the { $number } boxes that are needed
     }
+# In its place, once all of them have one.
+consent-ready = That is all that is needed.
 consent-agree = I take part
 consent-decline = Play without taking part
 consent-more = Read all of it

@@ -42,6 +42,8 @@ consent-waits =
         [one] Para participar, marca la casilla necesaria
        *[other] Para participar, marca las { $number } casillas necesarias
     }
+# In its place, once all of them have one.
+consent-ready = Eso es todo lo que hace falta.
 consent-agree = Participo
 consent-decline = Jugar sin participar
 consent-more = Leer todo

@@ -42,6 +42,8 @@ consent-waits =
         [one] Per partecipare, spunta la casella necessaria
        *[other] Per partecipare, spunta le { $number } caselle necessarie
     }
+# In its place, once all of them have one.
+consent-ready = È tutto ciò che serve.
 consent-agree = Partecipo
 consent-decline = Gioco senza partecipare
 consent-more = Leggi tutto

@@ -23,6 +23,8 @@ Button {
     focusPolicy: Qt.StrongFocus
     horizontalPadding: 56 * Theme.unit
     verticalPadding: 26 * Theme.unit
+    // A lock and the words are in the middle together, and the button is as wide without the lock.
+    readonly property real shift: locked ? Theme.ahead * 16 * Theme.unit : 0
     font.pixelSize: Theme.body
     font.bold: true
     scale: down ? 0.96 : 1
@@ -43,6 +45,7 @@ Button {
         color: !button.quiet ? Theme.white : button.waits ? Theme.faintInk : Theme.sea
         horizontalAlignment: Text.AlignHCenter
         verticalAlignment: Text.AlignVCenter
+        transform: Translate { x: button.shift }
         // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
         wrapMode: button.width < button.implicitWidth ? Text.Wrap : Text.NoWrap
     }
@@ -55,12 +58,16 @@ Button {
 
         Drawing {
             visible: button.locked
-            // In the room before the words, so that these stay where they are.
-            x: Theme.across(button.leftPadding - 22 * Theme.unit - width / 2, width, ground.width)
+            readonly property real half: Math.min(letters.advanceWidth(button.words), button.availableWidth) / 2
+            x: button.width / 2 + button.shift - Theme.ahead * (half + 22 * Theme.unit) - width / 2
             y: (ground.height - height) / 2
             scale: 34 * Theme.unit / 24
             ink: Theme.faintInk
             path: "M5.5 11 H18.5 V20.5 H5.5 Z M8.5 11 V7.5 A3.5 3.5 0 0 1 15.5 7.5 V11"
+        }
+        FontMetrics {
+            id: letters
+            font: button.font
         }
         FocusRing {
             around: button

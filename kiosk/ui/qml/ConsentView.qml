@@ -133,7 +133,7 @@ PageFrame {
                 id: boxes
                 width: pane.width
                 spacing: (points.airy && view.short ? (view.width < view.height ? 1.1 : 0.67) : 0.5) * Theme.gap
-                // What is still to be ticked. Its place is kept when all is, so that nothing moves.
+                // What is still to be ticked, or that nothing is.
                 PlainText {
                     id: waits
                     objectName: "consent-waits"
@@ -144,12 +144,12 @@ PageFrame {
                     visible: view.consent.purposes.some(purpose => purpose.required)
                     width: boxes.width
                     height: Math.ceil(letters.height)
-                    text: view.consent.waiting
+                    text: view.consent.waiting || view.words["consent-ready"]
+                    onTextChanged: if (view.visible && view.consent.complete) Accessible.announce(waits.text, Accessible.Polite)
                     font.pixelSize: points.airy && view.short ? Theme.size(view.width < view.height ? 36 : 34) : Theme.reading
                     fontSizeMode: Text.HorizontalFit
                     minimumPixelSize: Theme.size(24)
                     verticalAlignment: Text.AlignVCenter
-                    Accessible.ignored: text === ""
                 }
                 Repeater {
                     id: purposes

@@ -133,17 +133,9 @@ PageFrame {
     }
     readonly property bool upright: width < height
     readonly property bool mirrored: Theme.mirrored
-    // Whether a few ratings share an upright page with a line to be touched: their texts have two lines each.
-    readonly property bool mixed: upright && !alone && Theme.textSize <= 1.15 && form.items.length < 5 && form.items.some(item => scales(item))
-        && form.items.some(item => item.kind === "slider") && form.items.every(item => scales(item) || item.kind === "slider")
-    // How many lines the longest statement of an upright page of ratings takes; 1 where they are not alike.
-    readonly property int mostLines: {
-        let most = 1
-        if (upright && !alone && Theme.textSize <= 1.15 && (mixed || form.items.every(item => scales(item))))
-            for (let i = 0; i < boxes.count; i++)
-                most = Math.max(most, (boxes.itemAt(i) as FormItem)?.lines ?? 1)
-        return most
-    }
+    // Whether a few ratings have an upright page to themselves.
+    readonly property bool rated: upright && !alone && Theme.textSize <= 1.15 && form.items.length < 5
+        && form.items.every(item => scales(item) || item.kind === "slider")
     // Whether the keys of a number stand in the helper's place.
     readonly property bool keysBeside: keyboard.visible && keyboard.numbers
 
@@ -226,7 +218,7 @@ PageFrame {
         if ((width - column) / 2 >= wide)
             return Qt.point(width - wide - ((width - column) / 2 - wide) / 2, beside)
         if (Window.height - height >= tall)
-            return Qt.point((width - wide) / 2, height + Math.max(0, (Window.height - height - tall) / 2 - 14 * Theme.unit))
+            return Qt.point(upright ? Theme.across((width - column) / 2, wide, width) : (width - wide) / 2, height + Math.max(0, (Window.height - height - tall) / 2 - 14 * Theme.unit))
         const free = foot - tall - Theme.gap
         return free >= begin + home.y + home.height ? Qt.point((width - wide) / 2, free) : Qt.point(width - wide, beside)
     }
@@ -304,7 +296,7 @@ PageFrame {
                 }
                 return sum
             }
-            readonly property real loosened: view.calm && addable > 0 ? Math.max(0, Math.min(1, (room - plain) / addable)) : 0
+            readonly property real loosened: (view.calm || view.rated) && addable > 0 ? Math.max(0, Math.min(1, (room - plain) / addable)) : 0
             readonly property real tall: {
                 let sum = 0
                 for (let i = 0; i < boxes.count; i++) {
@@ -343,7 +335,6 @@ PageFrame {
                     rowText: view.rowText
                     textShare: view.textShare
                     headed: !view.repeats(index)
-                    leastLines: view.mostLines
                     inline: view.inline(modelData)
                     onEntered: field => keyboard.field = field
                 }
@@ -355,6 +346,10 @@ PageFrame {
         parent: view
         form: view.form
         place: view.padPlace(width, height)
+        // As wide as what the helper says, or from the cards' edge to the controls.
+        spare: view.upright ? view.width - (view.width - view.column) / 2 - 109 * Theme.unit
+             : view.accompanied ? Window.width - view.before - view.width - Theme.gap : 0
+        away: x < 0 ? (view.width - view.column) / 2 - x - width : x - (view.width + view.column) / 2
         aim: field === null ? 0 : view.begin + home.y + field.mapToItem(home, 0, field.height / 2).y
         words: view.words
         onDone: view.way.button.forceActiveFocus(Qt.MouseFocusReason)

@@ -22,6 +22,7 @@ FIXED = (
     "consent-required",
     "consent-optional",
     "consent-missing",
+    "consent-ready",
     "consent-agree",
     "consent-decline",
     "consent-more",

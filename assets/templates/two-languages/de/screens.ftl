@@ -41,6 +41,8 @@ consent-waits =
         [one] Kreuze das nötige Kästchen an, um teilzunehmen
        *[other] Kreuze die { $number } nötigen Kästchen an, um teilzunehmen
     }
+# In its place, once all of them have one.
+consent-ready = Mehr ist nicht nötig.
 consent-agree = Ich nehme teil
 consent-decline = Spielen ohne Teilnahme
 consent-more = Alles lesen

@@ -31,9 +31,6 @@ Item {
     // How high a scale is with them, and how much of its row is above and below it.
     property real scaleHeight: 0
     property real rowMargin: 0
-    // How many lines the longest text of the page has: all cards keep room for as many.
-    property int leastLines: 1
-    readonly property alias lines: question.lineCount
     // Whether a number stands beside its text, at the end of the card.
     property bool inline: false
     // How large its text is then.
@@ -54,7 +51,7 @@ Item {
     // How much of what can be added to the distances of this page is added, from 0 to 1.
     property real loosened: 0
     // How high it is without that, and how much can be added.
-    readonly property real plain: head + (inline ? Math.max(told.height, way.height) : told.height + lacking + (way.active ? usualSpacing + way.height : 0)) + 2 * usualMargin
+    readonly property real plain: head + (inline ? Math.max(told.height, way.height) : told.height + (way.active ? usualSpacing + way.height : 0)) + 2 * usualMargin
     readonly property real addable: alone || beside ? 0 : 32 * Theme.unit
     readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : airy ? lined ? 26 : 22 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
@@ -103,8 +100,6 @@ Item {
     // The words for the ends stand above the first card of a table.
     readonly property real head: beside && headed && !own ? ((way.item as PointScale)?.words ?? 0) + 8 * Theme.unit : 0
 
-    // The cards of a page are as high, with their scales at one place, and every text right above its own.
-    readonly property real lacking: beside ? 0 : Math.max(0, leastLines - question.lineCount) * question.implicitHeight / Math.max(1, question.lineCount)
     height: head + content.height + 2 * margin
 
     Rectangle {
@@ -124,15 +119,17 @@ Item {
             width: parent.width
             // Where the middle of a row is: that of the points, and not of words above them.
             readonly property real scaled: (way.item as PointScale)?.size ?? (way.item as SliderScale)?.rail ?? 0
+            // A line has what there is to do above it: in a row it stands in the middle and takes some of the margins.
+            readonly property bool slides: box.own && box.item.kind === "slider"
             // The text is level with the points. With the light words below them, these stand a little above the middle.
-            readonly property real axis: box.own ? Math.max((height - way.height + scaled) / 2 + 0.3 * box.rowMargin, told.height / 2 - 8 * Theme.unit) : middle
+            readonly property real axis: slides ? height / 2 : box.own ? Math.max((height - way.height + scaled) / 2 + 0.3 * box.rowMargin, told.height / 2 - 8 * Theme.unit) : middle
             // Rows of one line and of two are as high; with words for its ends it is as high as a scale and a line of words.
-            readonly property real middle: Math.max(box.own ? box.scaleHeight : scaled, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
-            height: box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : told.height + box.lacking + (way.active ? content.spacing + way.height : 0)
+            readonly property real middle: Math.max(box.own ? box.scaleHeight : scaled, slides ? way.height - 1.2 * box.rowMargin : 0, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
+            height: box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : told.height + (way.active ? content.spacing + way.height : 0)
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.lacking
+                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : 0
                 width: box.beside ? box.textShare * asked.width : box.inline ? asked.width - 470 * Theme.unit : asked.width
                 spacing: box.inline ? 0 : content.spacing
                 Balanced {
@@ -174,7 +171,7 @@ Item {
                 id: way
                 readonly property real room: box.beside ? (0.96 - box.textShare) * asked.width : asked.width
                 x: Theme.across(box.beside ? asked.width - room : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - height + asked.scaled / 2 : told.height + box.lacking + content.spacing
+                y: asked.slides ? (asked.height - height) / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - height + asked.scaled / 2 : told.height + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null

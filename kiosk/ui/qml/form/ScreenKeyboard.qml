@@ -3,6 +3,7 @@
 pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Controls.Basic
+import QtQuick.Shapes
 import Recollect
 import ".."
 
@@ -14,6 +15,9 @@ Rectangle {
     required property var words
     // Where a number's keys stand.
     required property point place
+    // How much width they have beside a wide page or below an upright one, and how far from the cards they are there.
+    property real spare: 0
+    property real away: 0
     // How high in the page the middle of the field is.
     property real aim: 0
     signal done()
@@ -27,7 +31,7 @@ Rectangle {
     readonly property bool numbers: field !== null && field.digits
     // Whether a number's keys stand in two rows, across an upright screen's width.
     readonly property bool flat: numbers && broad && !field?.minus
-    readonly property var rows: flat ? ["12345", "67890"] : numbers ? ["123", "456", "789", `${field?.minus ? "-" : " "}0⌫`] : form.keys[shown]
+    readonly property var rows: flat ? ["12345", "67890"] : numbers ? ["123", "456", "789", `${field?.minus ? "-" : ""}0⌫`] : form.keys[shown]
     readonly property int longest: Math.max(10, ...rows.map(row => row.length))
     readonly property real gap: 8 * Theme.unit
     readonly property real room: parent.width
@@ -35,13 +39,20 @@ Rectangle {
     readonly property bool broad: parent.width < parent.height && Window.height - parent.height > 400 * Theme.unit
     // Or a wide screen's margin beside it.
     readonly property bool roomy: Window.width - parent.width >= 440 * Theme.unit
-    readonly property real keyWidth: numbers ? (flat ? 118 : broad ? 150 : roomy ? 108 : 80) * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
-    readonly property real keyHeight: (numbers ? (flat ? 104 : roomy ? 80 : 68) : 60) * Theme.unit
+    readonly property real keyWidth: numbers ? flat ? fitting(spare - 190 * Theme.unit - gap, 5, 90, 140)
+        : broad ? 150 * Theme.unit : roomy ? fitting(spare, 3, 108, 160) : 80 * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
+    readonly property real keyHeight: (numbers ? (flat ? 112 : roomy ? 80 : 68) : 60) * Theme.unit
 
     // Whether they point at their field, at one side of it.
     readonly property bool points: numbers && !flat && (x >= parent.width || x < 0) && aim > y + radius + 30 * Theme.unit && aim < y + height - radius - 30 * Theme.unit
-    // How much of their height tells what is typed, where they stand far from their field.
-    readonly property real headed: flat ? 84 * Theme.unit : 0
+    // How much of their height tells what is asked, where they stand far from their field.
+    readonly property real headed: flat ? 72 * Theme.unit : 0
+
+    // How wide so many keys in a row are in this room, within these units.
+    function fitting(wide: real, many: int, least: real, most: real): real {
+        const each = (wide - 1.2 * Theme.gap - (many - 1) * gap) / many
+        return Math.floor(Math.max(least * Theme.unit, Math.min(most * Theme.unit, each)))
+    }
 
     width: numbers ? keys.width + 1.2 * Theme.gap : parent.width
     height: headed + keys.height + 1.2 * Theme.gap
@@ -66,10 +77,10 @@ Rectangle {
         // Whether it has the drawing of a key that deletes instead of its word.
         property bool drawn: false
         Accessible.name: words
-        Accessible.ignored: opacity === 0
         focusPolicy: Qt.NoFocus
         autoRepeat: objectName === "key-delete"
-        width: drawn || keyboard.numbers ? keyboard.keyWidth : Math.max(keyboard.keyWidth, implicitWidth)
+        readonly property real usualWidth: drawn || keyboard.numbers ? keyboard.keyWidth : Math.max(keyboard.keyWidth, implicitWidth)
+        width: usualWidth
         height: keyboard.keyHeight
         horizontalPadding: (keyboard.longest > 11 && words.length === 1 ? 2 : 14) * Theme.unit
         scale: down ? 0.94 : 1
@@ -103,15 +114,22 @@ Rectangle {
         onClicked: keyboard.shown = leads
     }
 
-    // Like a bubble's tail, to the field that is typed into.
-    Rectangle {
+    // Like a bubble's tail, to the card of the field that is typed into.
+    Shape {
+        id: tail
         visible: keyboard.points
-        x: keyboard.x < 0 ? keyboard.width - width / 2 - 3 * Theme.unit : 3 * Theme.unit - width / 2
+        width: Math.max(30 * Theme.unit, Math.min(96 * Theme.unit, keyboard.away))
+        height: 60 * Theme.unit
+        x: keyboard.x < 0 ? keyboard.width : -width
         y: keyboard.aim - keyboard.y - height / 2
-        width: 44 * Theme.unit
-        height: width
-        rotation: 45
-        color: keyboard.color
+        rotation: keyboard.x < 0 ? 180 : 0
+        ShapePath {
+            fillColor: keyboard.color
+            strokeWidth: -1
+            startX: 0; startY: tail.height / 2
+            PathLine { x: tail.width + 2 * Theme.unit; y: 0 }
+            PathLine { x: tail.width + 2 * Theme.unit; y: tail.height }
+        }
     }
     Item {
         id: heading
@@ -122,7 +140,7 @@ Rectangle {
         height: keyboard.headed - keyboard.gap
         Text {
             x: 14 * Theme.unit
-            width: echo.x - x - 20 * Theme.unit
+            width: parent.width - 2 * x
             height: parent.height
             verticalAlignment: Text.AlignVCenter
             textFormat: Text.PlainText
@@ -133,27 +151,6 @@ Rectangle {
             elide: Text.ElideRight
             color: Theme.ink
             Accessible.ignored: true
-        }
-        Rectangle {
-            id: echo
-            x: parent.width - width
-            width: others.wish
-            height: parent.height
-            radius: 18 * Theme.unit
-            color: "transparent"
-            border { color: Theme.sea; width: 3 * Theme.unit }
-            Text {
-                anchors { fill: parent; margins: 8 * Theme.unit }
-                horizontalAlignment: Text.AlignHCenter
-                verticalAlignment: Text.AlignVCenter
-                textFormat: Text.PlainText
-                text: keyboard.field?.text ?? ""
-                font { pixelSize: Theme.size(44); bold: true }
-                fontSizeMode: Text.HorizontalFit
-                minimumPixelSize: Theme.size(24)
-                color: Theme.ink
-                Accessible.ignored: true
-            }
         }
     }
     Grid {
@@ -178,9 +175,9 @@ Rectangle {
                             required property string modelData
                             readonly property bool wipes: modelData === "⌫"
                             objectName: wipes ? "key-delete" : "key-" + modelData
-                            // An empty place.
-                            opacity: modelData === " " ? 0 : 1
-                            enabled: opacity > 0
+                            // Twice as wide where no minus stands before it: no place is empty.
+                            width: keyboard.numbers && !keyboard.flat && modelData === "0" && !keyboard.field?.minus
+                                ? 2 * keyboard.keyWidth + keyboard.gap : usualWidth
                             drawn: wipes
                             words: wipes ? keyboard.words["keyboard-delete"] : keyboard.capitals ? keyboard.form.capital(modelData) : keyboard.numbers && modelData === "-" ? "−" : modelData
                             onClicked: {

@@ -34,20 +34,24 @@ Item {
 
     readonly property int range: highest - lowest
     readonly property int leap: Math.max(1, Math.round(range / 10))
-    readonly property real rail: (own ? lined ? 84 : ends > 0 ? 80 : 92 : dense ? 62 : large ? lined ? 112 : ends > 0 ? 108 : 126 : level ? 90 : 100) * Theme.unit
+    // How high the line is: as easy to hit as a point of the others.
+    readonly property real rail: (own ? 60 : large || alone ? 66 : 64) * Theme.unit
     // The handle, with room around it in the line.
-    readonly property real thickness: 0.78 * rail
+    readonly property real thickness: rail - 12 * Theme.unit
 
-    // How high the line itself is, and what there is to do above it needs beyond the handle's room.
-    readonly property real track: (dense ? 18 : 26) * Theme.unit
-    readonly property real above: own ? 0 : Math.max(0, hint.height + track / 2 + 2 * Theme.unit - rail / 2)
+    // How large the hand is that points at the line, and what there is to do above it.
+    readonly property real hand: (large || alone ? 60 : own ? 46 : 38) * Theme.unit
+    readonly property real hintHeight: Math.max(hand, 1.37 * (level ? Theme.small : lower.font.pixelSize))
+    readonly property real above: hintHeight + (own ? 1 : 4) * Theme.unit
 
     readonly property real words: Math.max(lower.height, upper.height)
-    readonly property real apart: (centred ? 4 : own ? 6 : large ? 4 : 7) * Theme.unit
-    readonly property bool centred: ends > 0 && below && !alone
-    // Its line ends where the middles of the points of the others are.
-    readonly property real inset: centred ? Math.max(0, (ends - rail) / 2) : 0
-    readonly property real otherInset: centred ? Math.max(0, (otherEnds - rail) / 2) : 0
+    readonly property real apart: (own ? 3 : 4) * Theme.unit
+    // In a row its line begins and ends where the points of the others do.
+    readonly property real point: (lined ? 84 : 80) * Theme.unit
+    readonly property real inset: own && ends > 0 ? Math.max(0, (ends - point) / 2) : 0
+    readonly property real otherInset: own && ends > 0 ? Math.max(0, (otherEnds - point) / 2) : 0
+    // How far the words for its ends stand within its round ends.
+    readonly property real round: 8 * Theme.unit
     // Among other kinds of items the ends stand beside the line, and what there is to do in it.
     readonly property bool level: !own && !alone && !large
     readonly property real most: 250 * Theme.unit * Theme.textSize
@@ -60,11 +64,11 @@ Item {
     PlainText {
         id: lower
         y: scale.below ? slider.y + slider.height + scale.apart : slider.y + (slider.height - height) / 2
-        x: Theme.across(0, width, scale.width)
-        width: scale.centred ? scale.ends : scale.below ? slider.width / 2 - Theme.gap : scale.leftRoom - Theme.gap
+        x: Theme.across(scale.below ? scale.inset + scale.round : 0, width, scale.width)
+        width: scale.below ? slider.width / 2 - Theme.gap : scale.leftRoom - Theme.gap
         text: scale.leftEnd
-        horizontalAlignment: scale.centred ? Text.AlignHCenter : Text.AlignLeft
-        lineHeight: scale.centred ? 0.86 : 1
+        horizontalAlignment: Text.AlignLeft
+        lineHeight: scale.ends > 0 && scale.below && !scale.alone ? 0.86 : 1
         font.pixelSize: scale.ends > 0 && !scale.alone ? scale.endSize : Theme.size(scale.own ? 28 : 30)
         wrapMode: Text.Wrap
         color: Theme.ink
@@ -72,10 +76,10 @@ Item {
     PlainText {
         id: upper
         y: scale.below ? lower.y : slider.y + (slider.height - height) / 2
-        x: Theme.across(scale.centred ? scale.width - width : scale.leftRoom + slider.width + scale.rightRoom - width, width, scale.width)
-        width: scale.centred ? scale.otherEnds : scale.below ? lower.width : scale.rightRoom - Theme.gap
+        x: Theme.across(scale.below ? scale.inset + slider.width - scale.round - width : scale.leftRoom + slider.width + scale.rightRoom - width, width, scale.width)
+        width: scale.below ? lower.width : scale.rightRoom - Theme.gap
         text: scale.rightEnd
-        horizontalAlignment: scale.centred ? Text.AlignHCenter : scale.below ? Text.AlignRight : Text.AlignLeft
+        horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
         lineHeight: lower.lineHeight
         font.pixelSize: lower.font.pixelSize
         wrapMode: Text.Wrap
@@ -130,39 +134,29 @@ Item {
             width: slider.width
             height: scale.rail
             radius: height / 2
-            // No frame: it would look like a field to type in.
-            color: "transparent"
+            // As the points of the others.
+            color: Theme.white
+            border { color: Theme.sea; width: (slider.hovered ? 5 : 3) * Theme.unit }
             // Where the middle of the handle can be.
             readonly property real inset: slider.leftPadding + scale.thickness / 2
-            // Its first and last mark, where the scale ends, stand a little within its round ends.
-            Rectangle {
-                x: groove.inset - height / 2
-                y: (scale.rail - height) / 2
-                width: slider.width - 2 * x
-                height: scale.track
-                radius: height / 2
-                color: Theme.white
-                border { color: Theme.sea; width: 3 * Theme.unit }
-            }
-            // A tenth of the way each, or a step where there are fewer; longer in the middle.
+            // A tenth of the way each, or a step where there are fewer. All are alike: a longer one would look chosen.
             Repeater {
                 id: ticks
                 model: Math.min(10, scale.range) + 1
                 Rectangle {
                     required property int index
-                    readonly property bool half: 2 * index === ticks.model - 1
                     readonly property real middle: groove.inset + index / (ticks.model - 1) * (slider.width - 2 * groove.inset)
                     x: middle - width / 2
                     y: (scale.rail - height) / 2
-                    width: (half ? 5 : 3) * Theme.unit
-                    height: half ? scale.track : 0.38 * scale.track
+                    width: 3 * Theme.unit
+                    height: 0.3 * scale.rail
                     radius: width / 2
                     color: Theme.sea
                 }
             }
             FocusRing {
                 around: slider
-                reach: 22 * Theme.unit
+                reach: 8 * Theme.unit
             }
         }
         handle: Rectangle {
@@ -182,11 +176,14 @@ Item {
     PlainText {
         id: hint
         objectName: `touch-${scale.item}`
-        readonly property real sign: 1.25 * font.pixelSize
+        readonly property real hand: scale.hand
+        readonly property real sign: hand + 4 * Theme.unit
         visible: !scale.answered && !slider.pressed
         x: slider.x + (slider.width - width) / 2
-        y: slider.y + (slider.height - scale.track) / 2 - height - 5 * Theme.unit
+        y: slider.y - scale.above
         width: Math.min(implicitWidth, slider.width)
+        height: scale.hintHeight
+        verticalAlignment: Text.AlignVCenter
         leftPadding: Theme.mirrored ? 0 : sign
         rightPadding: Theme.mirrored ? sign : 0
         text: scale.touch
@@ -194,9 +191,10 @@ Item {
         color: Theme.ink
         // A hand whose finger points at the line.
         Drawing {
-            x: Theme.across((hint.sign - width) / 2 - 4 * Theme.unit, width, hint.width)
+            x: Theme.across((hint.hand - width) / 2, width, hint.width)
             y: (hint.height - height) / 2
-            scale: 1.05 * hint.font.pixelSize / 24
+            scale: hint.hand / 24
+            thick: 1.7
             rotation: 180
             ink: Theme.sea
             path: "M8.5 13.5 V4.3 A1.8 1.8 0 0 1 12.1 4.3 V11 M12.1 9.8 A1.8 1.8 0 0 1 15.7 9.8 V11.5 M15.7 10.9 A1.8 1.8 0 0 1 19.3 10.9 V15.5 "
