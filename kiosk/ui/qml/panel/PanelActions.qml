@@ -92,7 +92,8 @@ PanelSection {
         even: true
         least: actions.tall
         size: actions.size
-        lettering: actions.lettering
+        // Four of them fit one row of the column in smaller letters only.
+        lettering: actions.wide && options.length > 3 ? Theme.dense : actions.lettering
         title: actions.words["console-break"]
         options: actions.choices.breaks ?? []
         chosen: actions.choices.break ?? ""

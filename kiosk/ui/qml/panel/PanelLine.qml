@@ -15,20 +15,20 @@ Item {
     // What it is called for those who do not see its line.
     property string actionName: action
     property bool ready: true
-    // What the words leave free at the end, where one of several lines has a button, so that all of them are as long.
+    // How wide the button is, where it does not make its line higher.
     property real beside: 0
     // How high it is at least.
     property real least: 0
     readonly property real space: 10 * Theme.unit
     signal asked()
 
-    // The button reaches into the lines beside its own, which leave it room: all lines are at even steps.
+    // A finger may reach into the lines beside the button's own: all lines are at even steps.
     height: Math.max(least, said.height, button.visible && beside === 0 ? button.height : 0)
 
     Row {
         id: said
         anchors.verticalCenter: parent.verticalCenter
-        width: row.width - (row.beside > 0 ? row.beside + row.space : button.visible ? button.width + row.space : 0)
+        width: row.width - (button.visible ? button.width + row.space : 0)
         spacing: row.space
         PanelMark { id: mark; well: row.line.is_ok; size: row.size }
         PlainText {

@@ -29,7 +29,7 @@ Item {
     // A line that is as high as the button in it needs no more room around it.
     readonly property real apart: (!wide ? 9 : room > 0 ? 2 : 14) * Theme.unit
 
-    // What a test takes of each line of the status.
+    // What a test takes of the line of the voice.
     readonly property string test: words[wide ? "console-test-voice" : "console-test-the-voice"]
     readonly property real testing: panel.choices.underWay ? 0 : Math.ceil(letters.advanceWidth + 42 * Theme.unit)
     TextMetrics {
