@@ -17,11 +17,13 @@ PageFrame {
     // Whether scales stand beside their texts, below each other: then the words for their ends are read once.
     readonly property real rowText: width <= height || alone || Theme.textSize > 1.15 ? 0
         : sizes.find(size => fits(size, 2)) ?? sizes.find(size => fits(size, 3)) ?? 0
-    // Whether every row has room for the words for its own ends, below its scale: the eye need not look for them.
-    readonly property bool own: rowText > 0 && !dense && form.items.every(item => scales(item) || item.kind === "slider") && ownRows() <= room
+    // Whether every row has room for the words for its own ends: the eye need not look for them.
+    readonly property bool own: rowText > 0 && !dense && form.items.every(item => scales(item) || item.kind === "slider") && (flanked || ownRows() <= room)
+    // Whether these stand at both sides of the scale, level with it, and not below it.
+    readonly property bool flanked: rowText > 0 && wider && halved && flanks()
     readonly property list<real> sizes: [36, 32, 29].map(Theme.size)
-    // How much of a row is the text's, and the points' is what is left: more of a longer row.
-    readonly property real textShare: wider ? 0.46 : 0.42
+    // How much of a row is the text's, and the points' is what is left.
+    readonly property real textShare: 0.42
     FontMetrics {
         id: letters
         font { pixelSize: 100; bold: true }
@@ -42,15 +44,16 @@ PageFrame {
     readonly property bool halved: !alone && !dense && Theme.textSize <= 1.15
         && form.items.every(item => !rates(item) || halves(item.left) && halves(item.right))
     // Whether there is room for each in one line, under the middles of the ends of its scale.
-    readonly property bool lined: !alone && !dense && Theme.textSize <= 1.15 && (wider || upright) && lines()
+    readonly property bool lined: !flanked && !alone && !dense && Theme.textSize <= 1.15 && (wider || upright) && lines()
     // How large these words are, and how wide then; those at the other end, too.
     readonly property real endSize: Theme.size(lined ? 30 : 28)
     // The scale stands in the middle of an upright card, and ends where a row of a wide page ends.
-    readonly property real ends: lined ? upright ? Math.max(widest("left"), widest("right")) : widest("left") : halved && (own || upright) ? 6 * endSize : 0
-    readonly property real otherEnds: lined && !upright ? widest("right") : ends
+    // They stand under the middles of a row's ends, beside them, or, on an upright card, at its edges.
+    readonly property real ends: flanked ? folded("left") : upright ? 0 : lined ? widest("left") : halved && own ? 6 * endSize : 0
+    readonly property real otherEnds: flanked ? folded("right") : lined && !upright ? widest("right") : ends
     // How high the scale of a row is with the words for its ends, and how much of the row is above and below it.
-    readonly property real scaleHeight: lined ? 88 * Theme.unit + 1.37 * endSize : halved ? 84 * Theme.unit + 2.36 * endSize : 98 * Theme.unit + 1.37 * Theme.size(28)
-    readonly property real rowMargin: (lined ? 22 : halved ? 14 : 18) * Theme.unit
+    readonly property real scaleHeight: flanked ? 92 * Theme.unit : lined ? 88 * Theme.unit + 1.37 * endSize : halved ? 84 * Theme.unit + 2.36 * endSize : 98 * Theme.unit + 1.37 * Theme.size(28)
+    readonly property real rowMargin: flanked ? flankedMargin() : (lined ? 22 : halved ? 14 : 18) * Theme.unit
     function rates(item: var): bool {
         return ["likert", "differential", "pictures", "slider"].includes(item.kind)
     }
@@ -58,6 +61,32 @@ PageFrame {
         const wide = Math.max(112 * Theme.unit, ...form.items.filter(rates).map(item => 1.03 * thin.advanceWidth(item[end]) * Theme.size(30) / 100))
         // In steps, so that the scales of pages with almost the same words stand at one place.
         return Math.ceil(wide / (24 * Theme.unit)) * 24 * Theme.unit
+    }
+    // How wide the words for these ends are in two lines at most; most are as wide, so pages look alike.
+    function folded(end: string): real {
+        let most = 0
+        for (const item of form.items.filter(rates)) {
+            const words = item[end].split(" ")
+            most = Math.max(most, Math.min(...words.map((_, at) => Math.max(
+                thin.advanceWidth(words.slice(0, at).join(" ")), thin.advanceWidth(words.slice(at).join(" "))))))
+        }
+        return Math.max(168 * Theme.unit, Math.ceil(1.06 * most * Theme.size(28) / 100 / (24 * Theme.unit)) * 24 * Theme.unit)
+    }
+    function flanks(): bool {
+        const wide = (0.96 - textShare) * (column - 2.4 * Theme.gap) - folded("left") - folded("right") - 2 * Theme.gap
+        return flankedMargin() >= 14 * Theme.unit && form.items.every(item => !scales(item)
+            || wide - item.points * 84 * Theme.unit >= 0.36 * 84 * Theme.unit * (item.points - 1))
+    }
+    // What is left of the page's height above and below each row, up to a limit.
+    function flankedMargin(): real {
+        const wide = textShare * (column - 2.4 * Theme.gap) * 0.88
+        let tall = 0, rows = 0
+        for (const item of form.items.filter(item => !form.hidden.includes(item.id))) {
+            const lines = Math.ceil(letters.advanceWidth(item.text) * rowText / 100 / wide)
+            tall += Math.max(92 * Theme.unit, Math.max(2, lines) * 1.37 * rowText) + spread
+            rows++
+        }
+        return Math.min(38 * Theme.unit, (room - tall) / Math.max(1, rows) / 2)
     }
     function lines(): bool {
         const wide = upright ? column - 2.4 * Theme.gap : (0.96 - textShare) * (column - 2.4 * Theme.gap)
@@ -330,6 +359,7 @@ PageFrame {
                     ends: view.ends
                     otherEnds: view.otherEnds
                     lined: view.lined
+                    flanked: view.flanked
                     scaleHeight: view.scaleHeight
                     rowMargin: view.rowMargin
                     rowText: view.rowText

@@ -71,7 +71,7 @@ Flow {
     property real gridGap: 12 * Theme.unit
     readonly property var gridded: {
         if (paired > 0)
-            return options.map((_, index) => index === options.length - 1 && index % 2 === 0 ? Math.floor(width) : Math.floor((width - gridGap) / 2))
+            return options.map(() => Math.floor((width - gridGap) / 2))
         const wishes = []
         for (let i = 0; i < buttons.count; i++)
             wishes.push((buttons.itemAt(i) as Choosable)?.implicitWidth ?? 0)

@@ -26,6 +26,8 @@ Item {
     property real otherEnds: ends
     // Whether each of them has one line there.
     property bool lined: false
+    // Whether they stand at both sides of the scale instead, level with it.
+    property bool flanked: false
     // How large these words are there.
     property real endSize: Theme.size(28)
     // How high a scale is with them, and how much of its row is above and below it.
@@ -120,9 +122,9 @@ Item {
             // Where the middle of a row is: that of the points, and not of words above them.
             readonly property real scaled: (way.item as PointScale)?.size ?? (way.item as SliderScale)?.rail ?? 0
             // A line has what there is to do above it: in a row it stands in the middle and takes some of the margins.
-            readonly property bool slides: box.own && box.item.kind === "slider"
+            readonly property bool slides: box.own && !box.flanked && box.item.kind === "slider"
             // The text is level with the points. With the light words below them, these stand a little above the middle.
-            readonly property real axis: slides ? height / 2 : box.own ? Math.max((height - way.height + scaled) / 2 + 0.3 * box.rowMargin, told.height / 2 - 8 * Theme.unit) : middle
+            readonly property real axis: slides || box.flanked ? height / 2 : box.own ? Math.max((height - way.height + scaled) / 2 + 0.3 * box.rowMargin, told.height / 2 - 8 * Theme.unit) : middle
             // Rows of one line and of two are as high; with words for its ends it is as high as a scale and a line of words.
             readonly property real middle: Math.max(box.own ? box.scaleHeight : scaled, slides ? way.height - 1.2 * box.rowMargin : 0, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
             height: box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : told.height + (way.active ? content.spacing + way.height : 0)
@@ -171,7 +173,7 @@ Item {
                 id: way
                 readonly property real room: box.beside ? (0.96 - box.textShare) * asked.width : asked.width
                 x: Theme.across(box.beside ? asked.width - room : box.inline ? asked.width - width : 0, width, asked.width)
-                y: asked.slides ? (asked.height - height) / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - height + asked.scaled / 2 : told.height + content.spacing
+                y: asked.slides ? (asked.height - height) / 2 : box.flanked ? asked.axis - (height + ((item as SliderScale)?.above ?? 0)) / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - height + asked.scaled / 2 : told.height + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
@@ -246,6 +248,7 @@ Item {
             ends: box.ends
             otherEnds: box.otherEnds
             lined: box.lined
+            flanked: box.flanked
             endSize: box.endSize
             lift: box.own ? 0 : box.margin + asked.middle - size / 2 + 8 * Theme.unit
             item: box.item.id
@@ -270,6 +273,7 @@ Item {
             ends: box.ends
             otherEnds: box.otherEnds
             lined: box.lined
+            flanked: box.flanked
             endSize: box.endSize
             item: box.item.id
             label: box.item.text

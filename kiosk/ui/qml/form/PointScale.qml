@@ -28,6 +28,8 @@ Item {
     property real otherEnds: ends
     // Whether each of them has one line there.
     property bool lined: false
+    // Whether they stand at both sides of the points instead, level with them.
+    property bool flanked: false
     // How large they are where they stand so.
     property real endSize: Theme.size(28)
     // How far above the points they stand then.
@@ -35,20 +37,20 @@ Item {
     signal chosen(int point)
 
     readonly property bool pictured: pictures.length > 0
-    readonly property real wish: (alone ? 132 : beside ? dense ? 72 : own && lined ? 84 : own && ends > 0 ? 80 : 92 : dense ? 58 : tight ? 66 : large ? ends > 0 && !lined ? 100 : 112 : 76) * Theme.unit * (pictured ? 1.25 : 1)
+    readonly property real wish: (alone ? 132 : flanked ? 84 : beside ? dense ? 72 : own && lined ? 84 : own && ends > 0 ? 80 : 92 : dense ? 58 : tight ? 66 : large ? ends > 0 && !lined ? 100 : 112 : 76) * Theme.unit * (pictured ? 1.25 : 1)
     readonly property real size: Math.min(wish, width / (points * 1.45))
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real most: 250 * Theme.unit * Theme.textSize
     readonly property bool roomy: lowest.implicitWidth + highest.implicitWidth + 2 * Theme.gap + points * size + least <= width
-    readonly property real leftRoom: roomy ? lowest.implicitWidth : Math.min(lowest.implicitWidth, most)
-    readonly property real rightRoom: roomy ? highest.implicitWidth : Math.min(highest.implicitWidth, most)
+    readonly property real leftRoom: flanked ? ends : roomy ? lowest.implicitWidth : Math.min(lowest.implicitWidth, most)
+    readonly property real rightRoom: flanked ? otherEnds : roomy ? highest.implicitWidth : Math.min(highest.implicitWidth, most)
     readonly property real spare: width - leftRoom - rightRoom - 2 * Theme.gap - points * size
     readonly property real least: 0.42 * size * (points - 1)
-    readonly property bool below: alone || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least)
-    readonly property bool centred: ends > 0 && below && !pictured && !alone && (!beside || own)
+    readonly property bool below: !flanked && (alone || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least))
+    readonly property bool centred: !flanked && ends > 0 && below && !pictured && !alone && (!beside || own)
     readonly property real inset: centred ? Math.max(0, (ends - size) / 2) : 0
     readonly property real otherInset: centred ? Math.max(0, (otherEnds - size) / 2) : 0
-    readonly property real gap: beside || centred ? (width - inset - otherInset - points * size) / Math.max(1, points - 1) : pictured ? 0.4 * size : alone ? 0.25 * size
+    readonly property real gap: flanked ? spare / Math.max(1, points - 1) : beside || centred ? (width - inset - otherInset - points * size) / Math.max(1, points - 1) : pictured ? 0.4 * size : alone ? 0.25 * size
         : Math.min(1.6 * size, Math.max(0.25 * size, (below ? width - points * size : spare) / Math.max(1, points - 1)))
     readonly property real span: points * size + (points - 1) * gap
 
@@ -68,10 +70,10 @@ Item {
         visible: !scale.beside || scale.own || scale.headed
         x: Theme.across(0, width, scale.width)
         y: scale.beside && !scale.own ? scale.words - height : scale.below ? row.height + scale.under : (scale.height - height) / 2
-        width: scale.centred ? scale.ends : scale.below ? scale.half : scale.leftRoom
+        width: scale.centred || scale.flanked ? scale.ends : scale.below ? scale.half : scale.leftRoom
         text: scale.leftEnd
-        horizontalAlignment: scale.centred ? Text.AlignHCenter : Text.AlignLeft
-        lineHeight: scale.centred ? 0.86 : 1
+        horizontalAlignment: scale.centred ? Text.AlignHCenter : scale.flanked ? Text.AlignRight : Text.AlignLeft
+        lineHeight: scale.centred || scale.flanked ? 0.86 : 1
         font.pixelSize: scale.ends > 0 && !scale.alone ? scale.endSize : scale.own ? Theme.size(28) : scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small
         wrapMode: Text.Wrap
         color: Theme.ink
@@ -82,7 +84,7 @@ Item {
         readonly property real end: scale.centred ? scale.width : Math.max(scale.span, 2 * scale.half + Theme.gap)
         x: Theme.across(scale.below ? end - width : scale.leftRoom + scale.span + 2 * Theme.gap, width, scale.width)
         y: scale.beside && !scale.own ? scale.words - height : scale.below ? lowest.y : (scale.height - height) / 2
-        width: scale.centred ? scale.otherEnds : scale.below ? scale.half : scale.rightRoom
+        width: scale.centred || scale.flanked ? scale.otherEnds : scale.below ? scale.half : scale.rightRoom
         text: scale.rightEnd
         horizontalAlignment: scale.centred ? Text.AlignHCenter : scale.below ? Text.AlignRight : Text.AlignLeft
         lineHeight: lowest.lineHeight
@@ -102,7 +104,7 @@ Item {
     Row {
         id: row
         x: Theme.across(scale.below ? scale.inset : scale.leftRoom + Theme.gap, width, scale.width)
-        y: scale.beside ? scale.head : scale.below ? 0 : (scale.height - height) / 2
+        y: scale.beside && !scale.flanked ? scale.head : scale.below ? 0 : (scale.height - height) / 2
         spacing: scale.gap
         Repeater {
             id: buttons

@@ -28,6 +28,8 @@ Item {
     property real otherEnds: ends
     // Whether each of them has one line there.
     property bool lined: false
+    // Whether they stand at both sides of the line instead, level with it.
+    property bool flanked: false
     // How large the words for its ends are where they stand so.
     property real endSize: Theme.size(28)
     signal chosen(int value)
@@ -48,16 +50,16 @@ Item {
     readonly property real apart: (own ? 3 : 4) * Theme.unit
     // In a row its line begins and ends where the points of the others do.
     readonly property real point: (lined ? 84 : 80) * Theme.unit
-    readonly property real inset: own && ends > 0 ? Math.max(0, (ends - point) / 2) : 0
-    readonly property real otherInset: own && ends > 0 ? Math.max(0, (otherEnds - point) / 2) : 0
+    readonly property real inset: !flanked && own && ends > 0 ? Math.max(0, (ends - point) / 2) : 0
+    readonly property real otherInset: !flanked && own && ends > 0 ? Math.max(0, (otherEnds - point) / 2) : 0
     // How far the words for its ends stand within its round ends.
     readonly property real round: 8 * Theme.unit
     // Among other kinds of items the ends stand beside the line, and what there is to do in it.
     readonly property bool level: !own && !alone && !large
     readonly property real most: 250 * Theme.unit * Theme.textSize
-    readonly property bool below: !level || width < 4 * most
-    readonly property real leftRoom: below ? 0 : Math.min(lower.implicitWidth, most) + Theme.gap
-    readonly property real rightRoom: below ? 0 : Math.min(upper.implicitWidth, most) + Theme.gap
+    readonly property bool below: !flanked && (!level || width < 4 * most)
+    readonly property real leftRoom: flanked ? ends + Theme.gap : below ? 0 : Math.min(lower.implicitWidth, most) + Theme.gap
+    readonly property real rightRoom: flanked ? otherEnds + Theme.gap : below ? 0 : Math.min(upper.implicitWidth, most) + Theme.gap
 
     height: below ? above + slider.height + apart + words : Math.max(above + slider.height, words)
 
@@ -67,8 +69,8 @@ Item {
         x: Theme.across(scale.below ? scale.inset + scale.round : 0, width, scale.width)
         width: scale.below ? slider.width / 2 - Theme.gap : scale.leftRoom - Theme.gap
         text: scale.leftEnd
-        horizontalAlignment: Text.AlignLeft
-        lineHeight: scale.ends > 0 && scale.below && !scale.alone ? 0.86 : 1
+        horizontalAlignment: scale.flanked ? Text.AlignRight : Text.AlignLeft
+        lineHeight: scale.flanked || scale.ends > 0 && scale.below && !scale.alone ? 0.86 : 1
         font.pixelSize: scale.ends > 0 && !scale.alone ? scale.endSize : Theme.size(scale.own ? 28 : 30)
         wrapMode: Text.Wrap
         color: Theme.ink
