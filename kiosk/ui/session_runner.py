@@ -562,7 +562,7 @@ class SessionRunner:
         self._renderer.reset("pause" if self._shut or self._on_break else screen)
         self.on_idle()
 
-    def _work(self) -> None:
+    def _work(self) -> None:  # noqa: C901 - one branch for each way in which a write goes on
         """Handle, write and show what happened, in turn, until nothing is left or the database cannot take it now."""
         self._working = True
         try:
@@ -576,8 +576,21 @@ class SessionRunner:
                         _log.info("%s", refusal)
                         continue
                 handled = self._unwritten
-                if not self._write(self._record, handled):
+                try:
+                    if self.writer is not None and self.writer.is_under_way:
+                        self.writer.end()
+                    elif self.writer is not None and self._record.reaches_disk(handled.outcome):
+                        self.writer.begin(partial(self._record.write, handled.event, handled.outcome), self._work)
+                        return
+                    else:
+                        self._record.write(handled.event, handled.outcome)
+                except StoreBusy as busy:
+                    self._try_again(self._work, busy)
                     return
+                except StorageError as failure:
+                    self._give_way(failure)
+                    return
+                self._busy.end()
                 self._unwritten = None
                 self._record.confirm()
                 if self._record.is_kept:
@@ -588,25 +601,6 @@ class SessionRunner:
                 self._after_effects(handled, session.stage)
         finally:
             self._working = False
-
-    def _write(self, record: SessionRecording, handled: _Handled) -> bool:
-        """Write what happened, and return whether that is done; ``_work`` is called again once it is."""
-        try:
-            if self.writer is not None and self.writer.is_under_way:
-                self.writer.end()
-            elif self.writer is not None and record.reaches_disk(handled.outcome):
-                self.writer.begin(partial(record.write, handled.event, handled.outcome), self._work)
-                return False
-            else:
-                record.write(handled.event, handled.outcome)
-        except StoreBusy as busy:
-            self._try_again(self._work, busy)
-            return False
-        except StorageError as failure:
-            self._give_way(failure)
-            return False
-        self._busy.end()
-        return True
 
     def _before_effects(self, outcome: Outcome, code: str, *, returns: bool) -> None:
         self._screen_changed = False

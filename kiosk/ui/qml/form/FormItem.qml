@@ -121,6 +121,7 @@ Item {
             width: parent.width
             // Where the middle of a row is: that of the points, and not of words above them.
             readonly property real scaled: (way.item as PointScale)?.size ?? (way.item as SliderScale)?.rail ?? 0
+            readonly property real above: (way.item as SliderScale)?.above ?? 0
             // A line has what there is to do above it: in a row it stands in the middle and takes some of the margins.
             readonly property bool slides: box.own && !box.flanked && box.item.kind === "slider"
             // The text is level with the points. With the light words below them, these stand a little above the middle.
@@ -173,7 +174,7 @@ Item {
                 id: way
                 readonly property real room: box.beside ? (0.96 - box.textShare) * asked.width : asked.width
                 x: Theme.across(box.beside ? asked.width - room : box.inline ? asked.width - width : 0, width, asked.width)
-                y: asked.slides ? (asked.height - height) / 2 : box.flanked ? asked.axis - (height + ((item as SliderScale)?.above ?? 0)) / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - height + asked.scaled / 2 : told.height + content.spacing
+                y: asked.slides ? (asked.height - height) / 2 : box.flanked ? asked.axis - asked.scaled / 2 - asked.above : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - height + asked.scaled / 2 : told.height + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null

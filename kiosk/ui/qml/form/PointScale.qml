@@ -62,7 +62,7 @@ Item {
     // In a table the ends stand above the points: they head the rows below, too.
     readonly property real head: beside && headed && !own ? words + lift : 0
 
-    height: beside && !own ? head + row.height : below ? row.height + words + under : Math.max(row.height, words)
+    height: flanked ? size : beside && !own ? head + row.height : below ? row.height + words + under : Math.max(row.height, words)
 
     // Under the first point, or above it; or before it, at the edge where the question begins.
     PlainText {

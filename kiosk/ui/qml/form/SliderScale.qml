@@ -61,7 +61,7 @@ Item {
     readonly property real leftRoom: flanked ? ends + Theme.gap : below ? 0 : Math.min(lower.implicitWidth, most) + Theme.gap
     readonly property real rightRoom: flanked ? otherEnds + Theme.gap : below ? 0 : Math.min(upper.implicitWidth, most) + Theme.gap
 
-    height: below ? above + slider.height + apart + words : Math.max(above + slider.height, words)
+    height: flanked ? above + rail : below ? above + slider.height + apart + words : Math.max(above + slider.height, words)
 
     PlainText {
         id: lower
