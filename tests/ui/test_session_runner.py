@@ -230,7 +230,7 @@ class SlowDisk:
 
 @pytest.fixture
 def slow_disk(booth: Booth) -> SlowDisk:
-    """Return the disk of a booth in whose game the next write waits."""
+    """Return the disk of a booth that is in the game; its next write waits."""
     booth.start_game()
     booth.settle()
     disk = SlowDisk()

@@ -37,7 +37,7 @@ Item {
     signal chosen(int point)
 
     readonly property bool pictured: pictures.length > 0
-    readonly property real wish: (alone ? 132 : flanked ? 84 : beside ? dense ? 72 : own && lined ? 84 : own && ends > 0 ? 80 : 92 : dense ? 58 : tight ? 66 : large ? ends > 0 && !lined ? 100 : 112 : 76) * Theme.unit * (pictured ? 1.25 : 1)
+    readonly property real wish: (alone ? 132 : flanked ? 84 : beside ? dense ? 72 : own && lined ? 84 : own && ends > 0 ? 80 : 92 : dense ? 58 : tight ? 66 : large ? 112 : 76) * Theme.unit * (pictured ? 1.25 : 1)
     readonly property real size: Math.min(wish, width / (points * 1.45))
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real most: 250 * Theme.unit * Theme.textSize
