@@ -202,7 +202,6 @@ console-repeat = Say it again
 console-mute = Turn the sound off
 console-heard = Turn the sound on
 console-stay-paused = Stay paused after closing
-console-not-stay-paused = Go on after closing
 console-break = A break: back in
 console-break-minutes = { $minutes } min
 console-break-end = End the break

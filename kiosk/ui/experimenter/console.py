@@ -418,7 +418,6 @@ WORDS = (
     "console-mute",
     "console-heard",
     "console-stay-paused",
-    "console-not-stay-paused",
     "console-break",
     "console-break-end",
     "console-abort",

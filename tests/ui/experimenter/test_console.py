@@ -97,8 +97,10 @@ def test_a_session_that_was_paused_before_stays_so(assigner: Desk) -> None:
 def test_a_session_can_be_left_paused_from_within_the_panel(assigner: Desk) -> None:
     assigner.go_to(Stage.PRACTICE)
     assigner.open_panel()
+    assert not assigner.item("action-pause").property("checked")
     assigner.click("action-pause")
     assert choices(assigner)["staysPaused"]
+    assert assigner.item("action-pause").property("checked")
     assigner.shortcut(Action.PANEL)
     assert assigner.app.screens.kiosk.property("paused")
 

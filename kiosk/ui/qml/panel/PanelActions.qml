@@ -14,7 +14,7 @@ PanelSection {
     readonly property real space: apart
     // How high they are: higher where they have a column of their own.
     readonly property bool ample: wide && least > 0 && choices.underWay && !choices.canBeNext && Theme.textSize <= 1.15
-    readonly property real tall: (ample ? 110 : wide ? 84 : 72) * Theme.unit
+    readonly property real tall: (wide ? 84 : 72) * Theme.unit
 
     readonly property real lettering: (Theme.textSize > 1.15 ? 1 : wide ? 1.2 : 1.3) * Theme.dense
 
@@ -22,18 +22,22 @@ PanelSection {
 
     // How many stand in a row; one, where its words need more.
     component Action: PanelButton {
-        property int row: !actions.choices.underWay ? (actions.wide ? 1 : 2) : actions.wide ? 2 : 3
+        property int row: actions.wide ? 1 : actions.choices.underWay ? 3 : 2
         readonly property real room: parent?.width ?? Infinity
         readonly property real each: (room - (row - 1) * actions.space) / row - 0.5
         least: actions.tall
         width: implicitWidth <= each ? each : room
         font.pixelSize: actions.lettering
     }
-    // What is pressed all day: the largest.
+    // Whether one thing alone is pressed all day, and how high and wide that is: the largest.
+    readonly property bool alone: [choices.onBreak, choices.canBeNext, choices.underWay].filter(Boolean).length === 1
+    readonly property real mainTall: (ample ? 124 : wide ? 108 : alone ? 76 : 92) * Theme.unit
+    function mainWide(room: real): real {
+        return wide || alone ? room : (room - space) / 2 - 0.5
+    }
     component Main: PanelButton {
-        readonly property bool alone: [actions.choices.onBreak, actions.choices.canBeNext, actions.choices.underWay].filter(Boolean).length === 1
-        least: (actions.ample ? 124 : actions.wide ? 108 : alone ? 76 : 92) * Theme.unit
-        width: actions.wide || alone ? parent?.width ?? Infinity : ((parent?.width ?? Infinity) - actions.space) / 2 - 0.5
+        least: actions.mainTall
+        width: actions.mainWide(parent?.width ?? Infinity)
         font.pixelSize: 1.12 * actions.lettering
     }
 
@@ -54,11 +58,15 @@ PanelSection {
             words: actions.words["console-next"]
             onClicked: actions.panel.wish("next", "")
         }
-        Main {
+        PanelSwitch {
             objectName: "action-pause"
             visible: actions.choices.underWay
-            words: actions.choices.staysPaused ? actions.words["console-not-stay-paused"] : actions.words["console-stay-paused"]
-            chosen: actions.choices.staysPaused
+            filled: actions.alone
+            least: actions.mainTall
+            width: actions.mainWide(parent?.width ?? Infinity)
+            font.pixelSize: 1.12 * actions.lettering
+            words: actions.words["console-stay-paused"]
+            on: actions.choices.staysPaused
             onClicked: actions.panel.wish("pause", "")
         }
     }
@@ -79,7 +87,6 @@ PanelSection {
         }
         Action {
             objectName: "action-mute"
-            row: actions.wide ? 1 : actions.choices.underWay ? 3 : 2
             words: actions.choices.muted ? actions.words["console-heard"] : actions.words["console-mute"]
             onClicked: actions.panel.wish("mute", "")
         }

@@ -57,15 +57,4 @@ PanelSection {
             }
         }
     }
-    // Lines for those to come, where the card ends beside another one.
-    Repeater {
-        readonly property real step: 1.4 * sessions.size + sessions.apart
-        readonly property int taken: sessions.records.sessions.length + 2
-        model: sessions.records.sessions.length === 0 ? 0 : Math.max(0, Math.min(7 - taken, Math.floor((sessions.least - 2.4 * Theme.gap - 1.6 * sessions.size + sessions.apart) / step) - taken + 1))
-        delegate: Item {
-            width: parent?.width ?? 0
-            height: Math.ceil(1.37 * sessions.size)
-            Rectangle { width: parent.width; height: 2 * Theme.unit; color: Theme.edge }
-        }
-    }
 }
