@@ -24,7 +24,7 @@ from kiosk.ui.renderer import Renderer
 from kiosk.ui.simulated_visitor import find_item, item_centre, lay_out
 from kiosk.ui.window import ClockMode, RunMode, WindowMode
 from tests.ui.headless import headless
-from tests.ui.looking import items, lies_in, painted, place
+from tests.ui.looking import is_ignored, items, lies_in, painted, place
 
 MOVING = RunMode(WindowMode.NOWHERE, ClockMode.WALL)
 QUIET = Settings.model_validate({"voice": {"enabled": False}})
@@ -345,7 +345,7 @@ def test_the_first_sentence_of_a_practice_goes_with_the_first_pair_and_can_be_he
     avatar.say("Let us practise first.")
     assert said() == ["Let us practise first."]
     board.mark_matched(GONE)
-    assert said() == []
+    assert said() == ["A pair!"]
     app.screens.kiosk.sayAgain()
     assert said() == ["Let us practise first."]
     avatar.say("Look at column 2.")
@@ -407,6 +407,24 @@ def test_in_a_practice_the_helper_tells_how_a_move_goes_on(app: App) -> None:
     screens.avatar.appear(present=True)
     assert "One moment, the cards turn back." in said()
     assert "One moment, the cards turn back" not in said()
+    board.lock(None)
+    board.reveal(Position(0, 1), "cat")
+    board.mark_matched(GONE)
+    assert "A pair!" in said()
+    board.lock(BoardWait.SPEAKING)
+    assert "A pair!" not in said()
+
+
+@STILL
+def test_a_pair_keeps_its_size_until_another_card_is_turned(app: App) -> None:
+    board = app.screens.board
+    for position in GONE:
+        board.reveal(position, "cat")
+    board.mark_matched(GONE)
+    large = [find(app, f"card-{board.location(position)}") for position in GONE]
+    assert [card.property("fresh") for card in large] == [1, 1]
+    board.reveal(Position(1, 0), "owl")
+    assert [card.property("fresh") for card in large] == [0, 0]
 
 
 @pytest.mark.parametrize("moves", [True], indirect=True)
@@ -519,6 +537,9 @@ def test_the_time_left_to_say_that_one_is_there_is_shown_where_it_is_known(app: 
     kiosk = app.screens.kiosk
     kiosk.ask_still_there(asks=True, wait_ms=20_000)
     assert shows_time()
+    seconds = find(app, "seconds-left")
+    assert seconds.property("text") in {"20", "19"}
+    assert is_ignored(seconds)
     kiosk.ask_still_there(asks=False)
     kiosk.ask_still_there(asks=True)
     assert not shows_time()

@@ -91,6 +91,7 @@ game-begin = It is your turn. Turn over any card.
 game-second = Now a second card
 practice-second = Now turn over a second card.
 practice-turning-back = One moment, the cards turn back.
+practice-pair = A pair!
 game-found = All found!
 game-wait-speaking = One moment, I have a hint for you
 game-wait-turning-back = One moment, the cards turn back

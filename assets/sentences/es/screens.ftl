@@ -92,6 +92,7 @@ game-begin = Te toca. Da la vuelta a cualquier carta.
 game-second = Ahora una segunda carta
 practice-second = Ahora da la vuelta a una segunda carta.
 practice-turning-back = Un momento, las cartas se vuelven a tapar.
+practice-pair = ¡Una pareja!
 game-found = ¡Todas encontradas!
 game-wait-speaking = Un momento, tengo una pista para ti
 game-wait-turning-back = Un momento, las cartas se vuelven a tapar

@@ -96,6 +96,7 @@ game-begin = Tocca a te. Scopri una carta qualsiasi.
 game-second = Ora una seconda carta
 practice-second = Ora scopri una seconda carta.
 practice-turning-back = Un momento, le carte si coprono di nuovo.
+practice-pair = Una coppia!
 game-found = Trovate tutte!
 game-wait-speaking = Un momento, ho un suggerimento per te
 game-wait-turning-back = Un momento, le carte si coprono di nuovo

@@ -98,6 +98,8 @@ FocusScope {
     property int turning: 0
     // Where the last pair lies, once all are found.
     property list<int> last: []
+    // Where the pair lies that was just found, until another card is turned over.
+    property list<int> latest: []
     // The middle of the cards; upright, that of the page, as the face below it.
     readonly property real middle: upright ? width / 2 : table.x + table.width / 2
     // Every pair was found, and is in the tray.
@@ -370,6 +372,10 @@ FocusScope {
             // The last pair stays a little forward, and the frames of all others step back.
             readonly property bool closes: view.last.includes(index)
             property real proud: closes && (settles || !coming.running) ? 1 : 0
+            // A pair that was just found keeps its size in its frame until the next move.
+            property real fresh: view.latest.includes(index) && (settles || !coming.running) ? 1 : 0
+            Behavior on fresh { NumberAnimation { duration: Theme.motion } }
+            readonly property real large: Math.max(proud, fresh)
             property real frame: view.last.length > 0 && !closes ? Theme.past : 1
             Behavior on proud { NumberAnimation { duration: Theme.motion } }
             Behavior on frame { NumberAnimation { duration: Theme.motion } }
@@ -381,7 +387,7 @@ FocusScope {
             objectName: "card-" + index
             width: GridView.view.cellWidth
             height: GridView.view.cellHeight
-            z: coming.running || closes ? 2 : up ? 1 : 0
+            z: coming.running || large > 0 ? 2 : up ? 1 : 0
             Accessible.role: Accessible.Button
             Accessible.name: label
             Accessible.onPressAction: view.board.tap(index)
@@ -405,6 +411,7 @@ FocusScope {
             onUpChanged: {
                 if (!up)
                     return
+                view.latest = []
                 view.touched = view.centre(index)
                 view.touchedSomething()
             }
@@ -424,7 +431,7 @@ FocusScope {
                 visible: place.rest > 0
                 anchors.centerIn: parent
                 // By its size: corners that are drawn larger by a scale look ragged.
-                width: 0.9 * parent.width * (1 + 0.14 * place.proud) * (1 + 0.09 * place.cheer)
+                width: 0.9 * parent.width * (1 + 0.14 * place.large) * (1 + 0.09 * place.cheer)
                 height: width
                 opacity: place.rest * place.frame
                 radius: width * 0.12
@@ -454,7 +461,7 @@ FocusScope {
                 // Closed cards step back while a tap would not count, unless they are meant.
                 opacity: view.speaking && !place.up && !place.marked ? Theme.held : 1
                 Behavior on opacity { NumberAnimation { duration: Theme.motion } }
-                scale: (tap.pressed ? 0.95 : 1) * (1 + 0.07 * lift) * (1 - 0.14 * place.rest + 0.15 * place.proud) * (1 + 0.16 * place.forward) * (1 + 0.09 * place.cheer)
+                scale: (tap.pressed ? 0.95 : 1) * (1 + 0.07 * lift) * (1 - 0.14 * place.rest + 0.15 * place.large) * (1 + 0.16 * place.forward) * (1 + 0.09 * place.cheer)
             }
             // These two are no pair; in a while they close again.
             Rectangle {
@@ -532,6 +539,7 @@ FocusScope {
             function onModelReset() {
                 view.turning = 0
                 view.last = []
+                view.latest = []
                 sweep.stop()
                 view.wave = 0
                 cards.currentIndex = 0
@@ -540,6 +548,7 @@ FocusScope {
             }
             function onPairFound(first, second, picture) {
                 const goal = tray.middle(view.board.tray.length - 1)
+                view.latest = [first, second]
                 if (view.board.tray.length === view.pairs)
                     view.last = [first, second]
                 if (view.board.tray.length === 1)

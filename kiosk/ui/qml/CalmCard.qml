@@ -26,24 +26,29 @@ FocusScope {
     // What there is to choose: the name of each, its words, and whether it is quiet. The first has the keyboard.
     property var choices: []
     signal chosen(string name)
-    // How long it stays, in ms; 0 where that is not known. A ring around the drawing empties meanwhile, in small steps.
+    // How long it stays, in ms; 0 where that is not known. The seconds that are left then stand in place of the
+    // drawing, and a ring around them empties in small steps.
     property int lasts: 0
     // Whether a ring around the drawing swells and shrinks slowly, as a sign that all is well.
     property bool breathes: false
     readonly property int steps: 40
-    property int stepsLeft: 0
+    property int msLeft: 0
+    readonly property int secondsLeft: Math.ceil(msLeft / 1000)
+    // Where nothing moves, the ring stays whole.
+    readonly property int stepsLeft: Theme.motion === 0 ? steps : Math.ceil(steps * msLeft / Math.max(1, lasts))
+    readonly property real badge: (lasts > 0 ? (speaker > 0 ? 180 : 150) : speaker > 0 ? 150 : 112) * Theme.unit
     onLastsChanged: {
         emptying.stop()
-        stepsLeft = lasts > 0 ? steps : 0
+        msLeft = lasts
         emptying.duration = lasts
         if (lasts > 0)
             emptying.start()
     }
-    // It tells the time, so it goes on where nothing else moves, in steps.
+    // It tells the time, so the seconds go on where nothing else moves.
     NumberAnimation {
         id: emptying
         target: calm
-        property: "stepsLeft"
+        property: "msLeft"
         to: 0
         duration: 0
     }
@@ -75,8 +80,8 @@ FocusScope {
             spacing: 1.5 * Theme.gap
             Rectangle {
                 anchors.horizontalCenter: parent.horizontalCenter
-                visible: calm.sign !== ""
-                width: (calm.speaker > 0 ? 150 : 112) * Theme.unit
+                visible: calm.sign !== "" || calm.lasts > 0
+                width: calm.badge
                 height: width
                 radius: width / 2
                 color: Theme.sand
@@ -120,8 +125,23 @@ FocusScope {
                         NumberAnimation { from: 1.16; to: 1; duration: 8 * Theme.motion; easing.type: Easing.InOutSine }
                     }
                 }
+                // Read by the eye alone: a screen reader would speak every second.
+                PlainText {
+                    objectName: "seconds-left"
+                    anchors.centerIn: parent
+                    visible: calm.lasts > 0
+                    width: 0.8 * parent.width
+                    text: calm.secondsLeft
+                    font { pixelSize: 0.52 * calm.badge; bold: true }
+                    fontSizeMode: Text.HorizontalFit
+                    minimumPixelSize: Theme.body
+                    horizontalAlignment: Text.AlignHCenter
+                    color: Theme.ink
+                    Accessible.ignored: true
+                }
                 Drawing {
                     anchors.centerIn: parent
+                    visible: calm.lasts === 0
                     scale: (calm.speaker > 0 ? 3.4 : 2.6) * Theme.unit
                     path: calm.sign
                     ink: Theme.ink

@@ -355,12 +355,13 @@ Window {
         leads: root.asking || !root.speaks
         hushed: root.asking && !root.wide
         readonly property bool done: boardPage.visible && boardPage.view.last.length > 0 && !root.board.practice
-        // How a move goes on is said in the practice; in the game a line under the cards says it.
+        // How a move goes on, and that it made a pair, is said in the practice; in the game a line under the cards says it.
         readonly property bool practises: boardPage.visible && root.board.practice
         readonly property bool second: practises && root.board.oneUp && root.board.open && !boardPage.view.marks
         readonly property bool missed: practises && root.board.missed
+        readonly property bool glad: practises && boardPage.view.latest.length > 0 && !root.board.speaking
         readonly property bool tells: (second || missed) && aside !== "" && !says
-        readonly property string turn: second ? root.words["practice-second"] : missed ? root.words["practice-turning-back"] : done ? root.words["game-found"]
+        readonly property string turn: second ? root.words["practice-second"] : missed ? root.words["practice-turning-back"] : glad ? root.words["practice-pair"] : done ? root.words["game-found"]
             : boardPage.visible && root.board.untouched && root.board.open ? root.words["game-begin"] : ""
         aside: !root.avatar.present || root.whole ? "" : !root.wide ? (root.kiosk.asks === "" && !root.kiosk.asksStillThere ? turn : "")
              : root.kiosk.asksStillThere ? root.words["still-there-line"]

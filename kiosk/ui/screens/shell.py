@@ -41,6 +41,7 @@ FIXED = (
     "game-second",
     "practice-second",
     "practice-turning-back",
+    "practice-pair",
     "game-found",
     "result-title",
     "result-pairs-label",

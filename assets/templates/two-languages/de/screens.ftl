@@ -91,6 +91,7 @@ game-begin = Du bist dran. Dreh irgendeine Karte um.
 game-second = Jetzt eine zweite Karte
 practice-second = Dreh jetzt eine zweite Karte um.
 practice-turning-back = Einen Moment, die Karten drehen sich um.
+practice-pair = Ein Paar!
 game-found = Alle gefunden!
 game-wait-speaking = Einen Moment, ich habe einen Tipp für dich
 game-wait-turning-back = Einen Moment, die Karten drehen sich um
