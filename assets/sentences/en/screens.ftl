@@ -34,6 +34,7 @@ return-as-new = This code is not known here. You can play all the same, as a new
 
 consent-required = needed to take part
 consent-optional = up to you
+consent-agreed = agreed
 consent-missing = Please tick this box if you want to take part.
 # Above the way on, as long as boxes that are needed have no tick.
 consent-waits =

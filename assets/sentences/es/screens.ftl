@@ -35,6 +35,7 @@ return-as-new = Aquí no se conoce este código. Puedes jugar igualmente, como s
 
 consent-required = necesario para participar
 consent-optional = como prefieras
+consent-agreed = de acuerdo
 consent-missing = Si quieres participar, marca esta casilla.
 # Above the way on, as long as boxes that are needed have no tick.
 consent-waits =

@@ -35,6 +35,7 @@ return-as-new = Qui questo codice non è conosciuto. Puoi giocare lo stesso, com
 
 consent-required = necessario per partecipare
 consent-optional = come preferisci
+consent-agreed = d'accordo
 consent-missing = Se vuoi partecipare, spunta questa casella.
 # Above the way on, as long as boxes that are needed have no tick.
 consent-waits =

@@ -23,6 +23,7 @@ PageFrame {
     way.name: "agree"
     way.waits: !consent.complete
     way.locks: true
+    way.even: true
     way.reason: consent.waiting
     way.otherName: "decline"
     onWent: consent.agree()
@@ -65,7 +66,8 @@ PageFrame {
         ScrollPane {
             id: pane
             width: parent.width
-            room: view.room
+            // The boxes keep some distance from the answers below, but where large texts need the room.
+            room: view.room - (Theme.textSize <= 1.15 ? 0.5 * Theme.gap : 0)
             more: view.words["scroll-more"]
             // What there is to tick stands apart from what is read, as far as the page has room.
             spacing: Math.max(0.5 * Theme.gap, Math.min((view.width < view.height ? 3.4 : 2.2) * Theme.gap, room - (view.short ? points.height : sheet.height) - boxes.height))
@@ -85,7 +87,6 @@ PageFrame {
                         width: parent?.width ?? 0
                         text: modelData.text
                         sign: modelData.sign
-                        strong: true
                         size: points.airy ? Theme.size(38) : Theme.body
                     }
                 }
@@ -146,7 +147,7 @@ PageFrame {
                     height: Math.ceil(letters.height)
                     text: view.consent.waiting || view.words["consent-ready"]
                     onTextChanged: if (view.visible && view.consent.complete) Accessible.announce(waits.text, Accessible.Polite)
-                    font.pixelSize: points.airy && view.short ? Theme.size(view.width < view.height ? 36 : 34) : Theme.reading
+                    font { pixelSize: points.airy && view.short ? Theme.size(view.width < view.height ? 38 : 36) : Theme.reading; bold: true }
                     fontSizeMode: Text.HorizontalFit
                     minimumPixelSize: Theme.size(24)
                     verticalAlignment: Text.AlignVCenter
@@ -165,6 +166,7 @@ PageFrame {
                         needed: modelData.required
                         on: view.consent.ticks.includes(modelData.id)
                         note: view.words[modelData.required ? "consent-required" : "consent-optional"]
+                        agreed: view.words["consent-agreed"]
                         warning: view.consent.missing.includes(modelData.id) ? view.words["consent-missing"] : ""
                         onClicked: view.consent.tick(modelData.id, !on)
                     }

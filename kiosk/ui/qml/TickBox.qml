@@ -9,6 +9,8 @@ Choosable {
     // What it is, in a word or two, and whether it has to be ticked.
     property string note: ""
     property bool needed: false
+    // What stands there instead, once it is ticked.
+    property string agreed: ""
     property string warning: ""
     // Where there is height for it.
     property bool roomy: false
@@ -19,7 +21,7 @@ Choosable {
 
     horizontalPadding: (large ? 28 : 17) * Theme.unit
     verticalPadding: (broad ? 0.8 : roomy ? 0.7 : 0.45) * Theme.gap
-    font.pixelSize: large ? Theme.size(broad ? 36 : 34) : Theme.reading
+    font.pixelSize: large ? Theme.size(broad ? 36 : 33) : Theme.reading
     Accessible.role: Accessible.CheckBox
     Accessible.name: words
     Accessible.description: warning || note
@@ -38,11 +40,24 @@ Choosable {
     contentItem: Item {
         id: parts
         // What the box is, at its right; where that leaves the words little room, and on an upright page, below them.
-        readonly property real after: (box.broad ? 0.7 : 1) * Theme.gap
+        readonly property real after: Theme.gap
         readonly property real room: box.availableWidth - mark.width - after
+        readonly property string note: box.on && box.agreed !== "" ? box.agreed : box.note
+        // As wide for either, so that a tick moves no words.
+        readonly property real noteWidth: Math.max(tag.implicitWidth, unticked.advanceWidth, ticked.advanceWidth)
+        TextMetrics {
+            id: unticked
+            font { family: tag.font.family; pixelSize: tag.font.pixelSize; bold: box.needed }
+            text: box.note
+        }
+        TextMetrics {
+            id: ticked
+            font { family: tag.font.family; pixelSize: tag.font.pixelSize; bold: true }
+            text: box.agreed
+        }
         readonly property bool noted: box.note !== "" && box.warning === ""
-        readonly property bool beside: noted && !box.broad && tag.width + Theme.gap < 0.4 * room
-        readonly property bool below: noted && box.broad && tag.width <= room
+        readonly property bool beside: noted && !box.broad && noteWidth + Theme.gap < 0.4 * room
+        readonly property bool below: noted && box.broad && noteWidth <= room
         implicitHeight: Math.max(box.large ? 76 * Theme.unit : mark.height, told.height)
         implicitWidth: mark.width
         Rectangle {
@@ -73,7 +88,7 @@ Choosable {
             id: told
             x: Theme.across(mark.width + parts.after, width, parts.width)
             y: (parts.height - height) / 2
-            width: parts.room - (parts.beside ? tag.width + Theme.gap : 0)
+            width: parts.room - (parts.beside ? parts.noteWidth + Theme.gap : 0)
             Balanced {
                 width: parent.width
                 text: box.words
@@ -85,7 +100,7 @@ Choosable {
                 textFormat: Text.PlainText
                 width: parent.width
                 visible: text !== ""
-                text: box.warning || (parts.beside || parts.below ? "" : box.note)
+                text: box.warning || (parts.beside || parts.below ? "" : parts.note)
                 horizontalAlignment: LayoutMirroring.enabled ? Text.AlignLeft : undefined
                 font { pixelSize: Theme.small; bold: box.warning !== "" }
                 wrapMode: Text.Wrap
@@ -105,9 +120,9 @@ Choosable {
             x: parts.below ? told.x + Theme.across(0, width, told.width) : Theme.across(parts.width - width, width, parts.width)
             y: parts.below ? told.y + told.height - height : (parts.height - height) / 2
             textFormat: Text.PlainText
-            text: box.note
-            font { pixelSize: box.large ? Theme.size(28) : Theme.small; bold: box.needed }
-            color: Theme.faintInk
+            text: parts.note
+            font { pixelSize: box.large ? Theme.size(28) : Theme.small; bold: box.needed || text !== box.note }
+            color: box.on ? Theme.sea : Theme.faintInk
             Accessible.ignored: true
         }
     }

@@ -21,6 +21,8 @@ FocusScope {
     property bool fills: false
     // What the other way on says, such as a no; and what the two are called.
     property string other: ""
+    // Whether both are as large.
+    property bool even: false
     property string name: "continue"
     property string otherName: ""
     readonly property alias button: go
@@ -33,9 +35,13 @@ FocusScope {
     readonly property real wish: (go.visible ? go.implicitWidth : 0) + (no.visible ? no.implicitWidth + Theme.gap : 0)
         + (back.visible ? back.implicitWidth + Theme.gap : 0)
     readonly property bool beside: wish <= width
+    // How wide both are then: where they have all of the width, or else as their words need.
+    readonly property bool level: even && beside && go.visible && no.visible
+    readonly property real spread: (width - (back.visible ? back.width + Theme.gap : 0) - Theme.gap) / 2
+    readonly property real share: fills ? spread : Math.min(spread, Math.max(go.implicitWidth, no.implicitWidth))
     readonly property real step: 0.5 * Theme.gap
     // As high without a way on, so that the way back stands at the same place.
-    readonly property real tallest: !go.visible && !back.visible ? 0 : Math.max(go.visible ? go.height : go.implicitHeight, back.visible ? back.height : 0)
+    readonly property real tallest: level ? go.implicitHeight : !go.visible && !back.visible ? 0 : Math.max(go.visible ? go.height : go.implicitHeight, back.visible ? back.height : 0)
 
     // Where there are too many for one row: whether the way back stands beside the other one.
     readonly property bool paired: no.visible && back.implicitWidth + Theme.gap + no.implicitWidth <= width
@@ -51,10 +57,15 @@ FocusScope {
         objectName: ways.name
         visible: ways.label !== ""
         most: ways.width
-        width: !ways.fills || ways.beside && no.visible ? Math.min(implicitWidth, most)
+        width: ways.level ? ways.share
+             : !ways.fills || ways.beside && no.visible ? Math.min(implicitWidth, most)
              // No wider than the other way on, which is as easy to find.
              : (ways.beside || ways.paired) && back.visible ? ways.width - back.width - Theme.gap : ways.width
         x: Theme.across(ways.width - width, width, ways.width)
+        // Where the other one has two lines, both grow up and down, and the row stays where it is.
+        y: ways.level ? (ways.tallest - height) / 2 : 0
+        height: ways.level ? Math.max(implicitHeight, no.implicitHeight) : implicitHeight
+        corner: ways.level ? no.topPadding + no.font.pixelSize : Infinity
         quiet: ways.quiet
         waits: ways.waits
         locked: ways.waits && ways.locks
@@ -68,12 +79,20 @@ FocusScope {
         objectName: ways.otherName
         visible: ways.other !== ""
         most: ways.width
-        width: !ways.fills || !back.visible ? Math.min(implicitWidth, most)
+        width: ways.level ? ways.share
+             : !ways.fills || !back.visible ? Math.min(implicitWidth, most)
              : ways.beside ? ways.width - go.width - back.width - 2 * Theme.gap : ways.paired ? ways.width - back.width - Theme.gap : ways.width
         x: Theme.across(ways.width - width - (ways.beside ? go.width + Theme.gap : 0), width, ways.width)
-        y: ways.beside ? 0 : go.height + ways.step
+        y: ways.level ? go.y : ways.beside ? 0 : go.height + ways.step
+        height: ways.level ? go.height : implicitHeight
         quiet: true
         horizontalPadding: 44 * Theme.unit
+        // Two lines need less air above and below them.
+        verticalPadding: (ways.level && letters.advanceWidth(words) > ways.spread - 2 * horizontalPadding ? 10 : 26) * Theme.unit
+        FontMetrics {
+            id: letters
+            font: no.font
+        }
         words: ways.other
         onClicked: ways.turnedDown()
     }

@@ -21,6 +21,7 @@ FIXED = (
     "return-as-new",
     "consent-required",
     "consent-optional",
+    "consent-agreed",
     "consent-missing",
     "consent-ready",
     "consent-agree",

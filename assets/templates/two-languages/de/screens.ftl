@@ -34,6 +34,7 @@ return-as-new = Diesen Code kennen wir hier nicht. Du kannst trotzdem spielen, w
 
 consent-required = nötig, um teilzunehmen
 consent-optional = wie du möchtest
+consent-agreed = einverstanden
 consent-missing = Bitte kreuze das an, wenn du teilnehmen möchtest.
 # Above the way on, as long as boxes that are needed have no tick.
 consent-waits =
