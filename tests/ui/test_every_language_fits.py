@@ -311,11 +311,14 @@ def moments(screens: ScreenSet, study: StudyConfig) -> Iterator[tuple[str, str, 
         if not any(isinstance(item, TextPage) for item in items):
             names = tuple(item.id for item in items)
             yield f"{name}, missing", "form", partial(screens.form.show_missing, names)
-    # In the order of a session: a code is drawn when it is given.
-    screens.debrief.give_contact("memory-study@psychology.university.test")
-    screens.debrief.give_summary(sheet.about.paragraphs[0])
-    screens.debrief.give_code("WWWWWWW")
-    yield "debrief", "debrief", lambda: screens.debrief.show(sheet.debrief)
+
+    def debrief() -> None:
+        screens.debrief.give_contact("memory-study@psychology.university.test")
+        screens.debrief.give_summary(sheet.about.paragraphs[0])
+        screens.debrief.give_code("WWWWWWW")
+        screens.debrief.show(sheet.debrief)
+
+    yield "debrief", "debrief", debrief
     yield "thanks", "thanks", lambda: None
 
 
@@ -332,51 +335,59 @@ def pages() -> Iterator[tuple[str, tuple[Item, ...]]]:
     yield "six ratings", ASKED["social-intelligence"].items[4:10]
 
 
-@pytest.mark.parametrize("size", list(TextSize), ids=lambda size: str(size.value))
 @pytest.mark.parametrize("layout", LAYOUTS, ids=str)
 def test_every_screen_fits_in_every_language_layout_and_text_size(
-    kiosk: tuple[Window, StudyConfig], layout: Layout, size: TextSize
+    kiosk: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
-    # The window's size changes least often, as it costs most.
     window, study = kiosk
     shown, screens = window.shown, window.screens
+    sizes = list(TextSize)
     screens.avatar.clear()
     screens.avatar.appear(present=not layout.robot)
-    screens.kiosk.show("attract")
-    screens.kiosk.set_text_size(size)
-    if (shown.width(), shown.height()) != (layout.width, layout.height):
-        shown.resize(layout.width, layout.height)
-        QCoreApplication.processEvents()
-    for plan in study.plans:
-        screens.kiosk.show("attract")
-        # The code of the language before would be drawn in this one.
-        screens.debrief.clear()
-        screens.set_language(plan.catalogue)
-        screens.kiosk.begin(SHIPPED, plan.language, plan.settings.consent)
-        screens.kiosk.offer_back(offered=True)
-        # Those without the helper come last: its coming and going changes every screen's size, which takes long.
-        every = moments(screens, replace(study, plans=(plan,)))
-        for moment, screen, fill in sorted(every, key=lambda each: each[0] in RATED):
-            if screen in LATER and moment not in LATER[screen]:
-                if screen == "game":
-                    fill()
-                continue
-            fill()
-            screens.avatar.leave(away=moment in RATED)
-            screens.kiosk.show(screen)
-            screens.avatar.say(said(screen, plan))
-            lay_out(shown)
-            told = f"{moment}, {plan.language}"
-            assert shown.contentItem().width() == layout.width
-            assert_all_can_be_read(shown, told)
-            assert_no_needless_scrolling(shown, told)
-            # The shipped questionnaires have four ratings on a page.
-            may_scroll = (
-                size is not TextSize.NORMAL or "missing" in moment or (layout.robot and moment == "six ratings")
-            )
-            assert may_scroll or find_item(shown.contentItem(), "more") is None, told
-        screens.avatar.leave(away=False)
+    show_alone(window, "attract")
+    shown.resize(layout.width, layout.height)
+    QCoreApplication.processEvents()
+    every = [list(moments(screens, replace(study, plans=(plan,)))) for plan in study.plans]
+    # A page is made once, for all languages and sizes.
+    for screen in dict.fromkeys(screen for _, screen, _ in every[0]):
+        for plan, there in zip(study.plans, every, strict=True):
+            screens.set_language(plan.catalogue)
+            screens.kiosk.begin(SHIPPED, plan.language, plan.settings.consent)
+            screens.kiosk.offer_back(offered=True)
+            for moment, _, fill in (each for each in there if each[1] == screen):
+                if screen in LATER and moment not in LATER[screen]:
+                    if screen == "game":
+                        fill()
+                    continue
+                fill()
+                screens.avatar.leave(away=moment in RATED)
+                show_alone(window, screen)
+                screens.avatar.say(said(screen, plan))
+                for size in sizes:
+                    screens.kiosk.set_text_size(size)
+                    lay_out(shown)
+                    told = f"{moment}, {plan.language}, {size.value}"
+                    assert shown.contentItem().width() == layout.width
+                    assert_all_can_be_read(shown, told)
+                    assert_no_needless_scrolling(shown, told)
+                    # The shipped questionnaires have four ratings on a page.
+                    may_scroll = (
+                        size is not TextSize.NORMAL or "missing" in moment or (layout.robot and moment == "six ratings")
+                    )
+                    assert may_scroll or find_item(shown.contentItem(), "more") is None, told
+                # The next page begins with the size that this one ends with.
+                sizes.reverse()
+    screens.avatar.leave(away=False)
     let_go(shown)
+
+
+def show_alone(window: Window, screen: str) -> None:
+    """Show a screen and let go of pages out of sight: each would lay its texts out as often as this one."""
+    window.screens.kiosk.show(screen)
+    for item in window.shown.contentItem().childItems():
+        for page in (item, *item.childItems()):
+            if page.inherits("QQuickLoader") and page.property("shown") is not None:
+                page.setProperty("active", page.property("shown"))
 
 
 def let_go(window: QQuickWindow) -> None:
@@ -401,14 +412,15 @@ def shown_in(kiosk: tuple[Window, StudyConfig], layout: Layout, wanted: Sequence
     screens.kiosk.begin(SHIPPED, "en", plan.settings.consent)
     screens.kiosk.offer_back(offered=True)
     screens.kiosk.set_text_size(TextSize.NORMAL)
+    screens.avatar.clear()
     screens.avatar.appear(present=not layout.robot)
-    screens.kiosk.show("attract")
+    show_alone(window, "attract")
     window.shown.resize(layout.width, layout.height)
     QCoreApplication.processEvents()
     for moment, screen, fill in moments(screens, replace(study, plans=(plan,))):
         if moment in wanted:
             fill()
-            screens.kiosk.show(screen)
+            show_alone(window, screen)
             lay_out(window.shown)
             yield moment
 

@@ -39,7 +39,8 @@ Item {
         bring()
     }
     function bring() {
-        if (!wanted)
+        // What a page shows anew, as in another language, takes the place of what was to be seen.
+        if (!wanted || !part(wanted))
             return
         const y = wanted.mapToItem(column, 0, 0).y
         if (y < flick.contentY)
