@@ -27,7 +27,7 @@ from tests.ui.headless import HALF, short
 from tests.ui.sabotage import Moment, Result, Sabotage, after_loss, replayed, result_of
 
 BROKEN = tuple(mode for mode in Broken if mode not in {Broken.WELL, Broken.NAMELESS})
-CLICKS = 22
+CLICKS = 14
 """The helper still speaks after so many."""
 QUICK = dict.fromkeys(("connect_deadline_ms", "answer_deadline_ms", "speech_deadline_min_ms"), 2_000)
 """Short, but longer than the collector holds up every thread of a process that has run thousands of tests."""
@@ -40,8 +40,8 @@ def run_mode() -> RunMode:
 
 
 def quick(robot: dict[str, object]) -> Settings:
-    """Return a study with this robot, and a game half as long as the shipped one."""
-    return short(robot=robot, game={"rows": 3, "columns": 4})
+    """Return a study with this robot, and a game of a third of the cards that still takes a hint."""
+    return short(robot=robot, game={"rows": 2, "columns": 4})
 
 
 @pytest.fixture
@@ -99,7 +99,7 @@ def test_a_robot_plays_the_avatars_pack_until_it_cannot_fetch_it_and_the_record_
     monkeypatch.setattr(PackClips, "__call__", lambda *_: SpokenClip(b"RIFF", 10, by))
     robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "pack": True, **QUICK}
     booth = make_booth(settings=quick(robot))
-    rehearsal = Sabotage(booth.app, 1, lambda: setattr(fake, "fetches", False), 20)
+    rehearsal = Sabotage(booth.app, 1, lambda: setattr(fake, "fetches", False), 5)
     rehearsal.run()
     with open_repository(booth.data) as stored:
         result = result_of(stored, rehearsal)
@@ -155,14 +155,14 @@ def test_over_the_other_interface_it_costs_nobody_anything_either(make_booth: Ma
 
 def test_the_avatar_says_the_same_sentence_in_the_same_moment(fake: FurhatFake, make_booth: MakeBooth) -> None:
     robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "speech_deadline_ms_per_char": 1, **QUICK}
-    # The shipped game: it takes three hints.
-    booth = make_booth(settings=short(robot=robot))
-    fake.arm(Mode.SERVER_ERROR, path="/furhat/say", after=3)
+    # Half of the shipped game: it takes two hints.
+    booth = make_booth(settings=short(robot=robot, game={"rows": 3, "columns": 4}))
+    fake.arm(Mode.SERVER_ERROR, path="/furhat/say", after=2)
     rehearsal = Sabotage(booth.app, 1, lambda: None, 1)
     rehearsal.run()
     with open_repository(booth.data) as stored:
         events = result_of(stored, rehearsal).events
-    hint = [event for event in events if isinstance(event, happened.HintGiven)][2]
+    hint = [event for event in events if isinstance(event, happened.HintGiven)][1]
     started = next(event for event in after_loss(events) if isinstance(event, happened.SpeechStarted))
     lost = next(event for event in events if isinstance(event, happened.RobotDisconnected))
     assert started.utterance == hint.utterance
@@ -187,4 +187,4 @@ def test_a_robot_that_is_lost_between_sessions_leaves_them_to_the_avatar(
     booth.rehearse(seed=1)
     with open_repository(booth.data) as stored:
         assert stored.sessions()[0].embodiment == "avatar"
-        assert stored.sessions()[0].pairs == 6
+        assert stored.sessions()[0].pairs == 4

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from PySide6.QtGui import QGuiApplication
 
 from kiosk.config import STAGES, Settings
 from kiosk.experiment import effects as do
@@ -15,13 +17,14 @@ from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import WorldEvent
 from kiosk.experiment.outcomes import NotRecordedReason, Stage, Status
 from kiosk.experiment.session import Session
+from kiosk.experiment.session_config import SessionConfig
 from kiosk.experiment.session_state import SessionState
 from kiosk.store.queries import open_repository
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile
 from kiosk.ui.window import RunMode
-from tests.ui.conftest import Booth, MakeBooth
-from tests.ui.headless import BRIEF, HALF, SMALL, TINY
+from tests.ui.conftest import MakeBooth
+from tests.ui.headless import BRIEF, HALF, SMALL, TINY, headless
 
 
 @pytest.fixture
@@ -139,18 +142,33 @@ def test_a_visitor_answers_the_items_that_come_by_their_answers(
     assert hidden == ({"pity", "why"} if plays == "yes" else {"which"})
 
 
-@pytest.fixture
-def booth(make_booth: MakeBooth) -> Booth:
-    """Return a booth with half the cards."""
-    return make_booth(settings=BRIEF)
+@dataclass(frozen=True)
+class Played:
+    """A session that was played to its end in a window, as it is stored."""
+
+    plan: SessionConfig
+    seed: int
+    events: list[happened.Event]
+    records: str
 
 
-def test_every_flip_in_the_database_is_a_card_that_was_clicked_just_before(booth: Booth) -> None:
-    booth.rehearse(seed=2)
-    with open_repository(booth.data) as stored:
-        events = stored.events(1)
+def play(data: Path) -> Played:
+    """Return a session with half the cards."""
+    with headless(BRIEF, data, seed=5, mode=HALF) as app:
+        Rehearsal(app, 5).run()
+    with open_repository(data) as stored:
+        return Played(stored.plan(1), stored.seed(1), stored.events(1), json.dumps(stored.records(1)))
+
+
+@pytest.fixture(scope="module")
+def played(qapp: QGuiApplication, tmp_path_factory: pytest.TempPathFactory) -> Played:  # noqa: ARG001 - Qt is there
+    """Return one such session, for the tests that only read it."""
+    return play(tmp_path_factory.mktemp("played"))
+
+
+def test_every_flip_in_the_database_is_a_card_that_was_clicked_just_before(played: Played) -> None:
     flips = 0
-    for before, event in pairwise(events):
+    for before, event in pairwise(played.events):
         if isinstance(event, happened.CardFlipped):
             assert isinstance(before, happened.CardSelected)
             assert before.position == event.position
@@ -159,27 +177,18 @@ def test_every_flip_in_the_database_is_a_card_that_was_clicked_just_before(booth
     assert flips >= 12
 
 
-def test_a_stored_session_handled_again_gives_the_same_records(booth: Booth) -> None:
-    booth.rehearse(seed=3)
-    with open_repository(booth.data) as stored:
-        events = stored.events(1)
-        again = Session(stored.plan(1), stored.seed(1))
+def test_a_stored_session_handled_again_gives_the_same_records(played: Played) -> None:
+    again = Session(played.plan, played.seed)
     replayed: list[happened.Event] = []
-    for event in events:
+    for event in played.events:
         if isinstance(event, WorldEvent):
             outcome = again.handle(event)
             replayed += [event, *outcome.events]
-    assert replayed == events
+    assert replayed == played.events
 
 
-def test_the_same_seed_plays_the_same_session_to_the_millisecond(make_booth: MakeBooth) -> None:
-    stories = []
-    for _ in range(2):
-        booth = make_booth(seed=5, settings=BRIEF)
-        booth.rehearse(seed=5)
-        with open_repository(booth.data) as stored:
-            stories.append(json.dumps(stored.records(1)))
-    assert stories[0] == stories[1]
+def test_the_same_seed_plays_the_same_session_to_the_millisecond(played: Played, tmp_path: Path) -> None:
+    assert play(tmp_path).records == played.records
 
 
 def test_without_help_a_visitor_plays_alone(make_booth: MakeBooth) -> None:
