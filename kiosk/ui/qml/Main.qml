@@ -86,6 +86,7 @@ Window {
         value: root.wide ? Math.min(root.width / 1920, root.room / 1080)
                          : Math.min(root.width / 1080, root.room / 1920)
     }
+    Binding { target: Theme; property: "upright"; value: !root.wide }
     Binding { target: Theme; property: "textSize"; value: root.texts }
     Binding { target: Theme; property: "screenKeys"; value: root.screenKeys }
     Binding { target: Theme; property: "mirrored"; value: root.kiosk.mirrored }

@@ -9,6 +9,7 @@ QtObject {
     // Set by the window, as all that is not readonly: pixels of one unit of a 1080-line screen, and the factor for texts.
     property real unit: 1
     property real textSize: 1
+    property bool upright: false
     // Whether the person who is there works by keyboard: what has the focus then shows so, on a screen that only just came too.
     property bool byKeyboard: false
     // When the keys on the screen come: "touch", "always" or "never".
@@ -53,8 +54,9 @@ QtObject {
     readonly property real small: size(26)
     readonly property real reading: size(29)
     // What the experimenter reads, who sits close and wants all of it at once: 20 of 1080 lines at least.
-    readonly property real dense: Math.max(20, 22 * textSize) * unit
-    readonly property real denser: Math.max(20, 18 * textSize) * unit
+    // More on an upright screen, which has the height for it.
+    readonly property real dense: Math.max(upright ? 28 : 20, 22 * textSize) * unit
+    readonly property real denser: Math.max(upright ? 24 : 20, 18 * textSize) * unit
     readonly property real gap: 24 * unit
     readonly property real radius: 22 * unit
 

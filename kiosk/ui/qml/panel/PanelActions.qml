@@ -16,7 +16,7 @@ PanelSection {
     readonly property bool ample: wide && least > 0 && choices.underWay && !choices.canBeNext && Theme.textSize <= 1.15
     readonly property real tall: (wide ? 84 : 72) * Theme.unit
 
-    readonly property real lettering: (Theme.textSize > 1.15 ? 1 : wide ? 1.2 : 1.3) * Theme.dense
+    readonly property real lettering: (Theme.textSize > 1.15 ? 1 : wide ? 1.2 : 1.05) * Theme.dense
 
     title: words["console-actions"]
 

@@ -11,7 +11,7 @@ PanelSection {
     required property bool named
     signal asked()
 
-    readonly property real first: width * 0.16
+    readonly property real first: width * (named ? 0.16 : 0.1)
     readonly property real between: 0.6 * Theme.gap
     // As wide as each other, so that the numbers stand at even steps.
     readonly property real other: (width - 1.6 * Theme.gap - first - (shown + 1) * between) / (shown + 1)

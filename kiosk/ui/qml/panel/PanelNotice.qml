@@ -7,6 +7,7 @@ Rectangle {
     id: notice
 
     required property var health
+    readonly property real size: Theme.dense * (Theme.upright ? 1 : 1.12)
 
     height: sentence.height + Theme.gap
     radius: Theme.radius
@@ -27,14 +28,14 @@ Rectangle {
                 PlainText {
                     id: sign
                     text: notice.health.well ? "✓" : "▲"
-                    font { pixelSize: Theme.dense * 1.12; bold: true }
+                    font { pixelSize: notice.size; bold: true }
                     color: notice.health.well ? Theme.white : Theme.ink
                     Accessible.ignored: true
                 }
                 PlainText {
                     width: matter.width - sign.width - matter.spacing
                     text: matter.modelData
-                    font { pixelSize: Theme.dense * 1.12; bold: true }
+                    font { pixelSize: notice.size; bold: true }
                     color: sign.color
                     wrapMode: Text.Wrap
                 }

@@ -13,6 +13,8 @@ Rectangle {
     required property real split
     readonly property var tiles: panel.today.tiles
     readonly property var stage: tiles.find(each => each.name === "stage")
+    required property real size
+    readonly property real figure: Theme.dense * (Theme.upright ? 1.8 : 2.1)
     readonly property real inset: 0.8 * Theme.gap
     readonly property real room: width - 2 * inset
     // Where the numbers begin: beside what is going on, or below it.
@@ -28,12 +30,13 @@ Rectangle {
         objectName: "today-stage"
         x: now.inset
         y: 0.6 * Theme.gap
-        width: now.wide ? now.from - now.inset : now.room
+        width: now.wide ? now.from - now.inset - 0.5 * Theme.gap : now.room
         height: implicitHeight
-        size: Theme.dense * 2.1
+        size: now.figure
+        lettering: now.size
         title: now.stage?.title ?? ""
         value: now.stage?.value ?? ""
-        line: [now.stage?.line ?? "", now.panel.choices.underWay ? now.panel.choices.session : ""].filter(each => each !== "").join(" · ")
+        line: [now.stage?.line ?? "", now.panel.choices.underWay ? now.panel.choices.session : ""].filter(each => each !== "").join(Theme.upright && now.wide ? "\n" : " · ")
     }
     Rectangle {
         x: now.wide ? now.from - 0.4 * Theme.gap : now.inset
@@ -58,7 +61,8 @@ Rectangle {
                 objectName: "today-" + modelData.name
                 width: numbers.each
                 height: implicitHeight
-                size: Theme.dense * 2.1
+                size: now.figure
+                lettering: now.size
                 title: modelData.title
                 value: modelData.value
                 line: modelData.line

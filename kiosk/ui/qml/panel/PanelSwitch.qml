@@ -21,7 +21,7 @@ PanelButton {
         id: parts
         implicitWidth: letters.implicitWidth + track.width + Theme.gap
         implicitHeight: Math.max(letters.implicitHeight, track.height)
-        PlainText {
+        Balanced {
             id: letters
             x: Theme.across(0, width, parts.width)
             y: (parts.height - height) / 2
@@ -30,7 +30,7 @@ PanelButton {
             font: bar.font
             color: bar.front
             horizontalAlignment: Text.AlignLeft
-            wrapMode: Text.Wrap
+            least: 0.6
             Accessible.ignored: true
         }
         // Filled when on; when off, only an outline. The knob says so without a colour.

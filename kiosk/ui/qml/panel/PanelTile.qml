@@ -11,6 +11,7 @@ Item {
     required property string line
     // How large the number is.
     property real size: Theme.dense * 1.6
+    property real lettering: Theme.dense
 
     implicitHeight: content.height
     Accessible.role: Accessible.Grouping
@@ -22,7 +23,7 @@ Item {
         PlainText {
             width: parent.width
             text: tile.title
-            font.pixelSize: Theme.dense
+            font.pixelSize: tile.lettering
             color: Theme.faintInk
             wrapMode: Text.Wrap
         }
@@ -37,7 +38,7 @@ Item {
             width: parent.width
             text: tile.line
             visible: text !== ""
-            font.pixelSize: Theme.dense
+            font.pixelSize: tile.lettering
             color: Theme.faintInk
             wrapMode: Text.Wrap
         }

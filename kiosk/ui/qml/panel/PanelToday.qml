@@ -13,8 +13,7 @@ Item {
     // How much of it is seen at once.
     required property real seen
     readonly property var words: panel.words
-    // An upright screen has room for longer lines, and so for larger ones.
-    readonly property real size: Theme.dense * (wide ? 1.15 : 1.18)
+    readonly property real size: wide ? 1.15 * Theme.dense : Math.max(Theme.dense, 26 * Theme.textSize * Theme.unit)
     // Whole pixels: a card at a fraction of one would lose its right edge.
     readonly property real side: Math.floor(wide ? width * 0.265 : width)
     readonly property real main: wide ? width - side - space : width
@@ -44,7 +43,7 @@ Item {
         id: first
         width: today.main
         spacing: today.space
-        PanelNow { width: parent.width; panel: today.panel; wide: today.wide; split: today.half + today.space }
+        PanelNow { width: parent.width; panel: today.panel; size: today.size; wide: today.wide || Theme.textSize <= 1.15; split: today.wide ? today.half + today.space : Math.round(0.46 * width) }
         PanelNotice { width: parent.width; health: today.panel.health }
     }
     Column {
