@@ -32,13 +32,14 @@ FocusScope {
     readonly property int markRow: board.markRow
     readonly property int markColumn: board.markColumn
     // How much of a cell a card takes.
-    readonly property real share: upright ? 0.94 : 0.91
-    // On an upright screen, what stands above the cards begins and ends with them. Their pictures have a narrow margin.
+    readonly property real share: upright ? 0.97 : 0.91
+    // On an upright screen, what stands above the cards begins with their numbers and ends with a mark's frame around them.
+    // The cards' pictures have a narrow margin.
     readonly property real margin: (1 - 0.962 * share) / 2
-    readonly property real headLeft: table.x + margin * cell - gutter
-    readonly property real headRight: table.x + table.width - (upright ? margin * cell : 0)
+    readonly property real headLeft: table.x - gutter
+    readonly property real headRight: table.x + table.width
     // On an upright screen, the room of the rows' numbers and their arrow beside the cards.
-    readonly property real gutter: (upright ? 64 : 0) * Theme.unit
+    readonly property real gutter: (upright ? 54 : 0) * Theme.unit
 
     // Columns are counted from the left in every language, on the board and in what is said.
     LayoutMirroring.enabled: false
@@ -48,27 +49,31 @@ FocusScope {
     readonly property real side: broad ? Math.min(300 * Theme.unit, 0.17 * width) : 0
     // Where the cards leave room for it, the tray has two rows of larger places.
     readonly property bool tall: height - (182 + 70) * Math.max(1, Theme.textSize) * Theme.unit - rows * widest > 70 * Theme.unit
-    // Two rows of large places on an upright screen, where the cards leave room for them.
-    readonly property int shelfLines: pairs > 12 || (pairs > 6 && Theme.textSize <= 1.15 && rows * widestUpright < 0.7 * width) ? 2 : 1
+    readonly property int shelfLines: pairs > 12 ? 2 : 1
     readonly property int lines: upright ? shelfLines : tall ? 2 : 1
     // On an upright screen: the line of words above the tray, and a place of the tray. They depend on no height.
     readonly property real wordsLine: (78 * Math.max(1, Theme.textSize) + 20) * Theme.unit + wordsApart
     readonly property real wordsApart: 20 * Theme.unit
-    readonly property real shelfSlot: Math.floor(Math.min(104 * Theme.unit, wide / Math.max(1, Math.ceil(pairs / shelfLines))))
+    readonly property real shelfSlot: Math.floor(Math.min(84 * Theme.unit, wide / Math.max(1, Math.ceil(pairs / shelfLines))))
     readonly property real shelf: wordsLine + shelfLines * shelfSlot + 8 * Theme.unit
     readonly property real usualStrip: upright ? shelf : (tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
     readonly property real strip: broad ? 0 : usualStrip
     // The shelf stands further from the columns' numbers than the cards do, as they name the cards; but no card gets
     // smaller by it.
-    readonly property real apart: upright ? 60 * Theme.unit : 0
-    readonly property real spare: Math.floor(height - 20 * Theme.unit - strip - numbers - footer - rows * widest) - 1
+    readonly property real apart: upright ? 30 * Theme.unit : 0
+    // How much of its lower end a long sentence may cover.
+    property real lent: 0
+    readonly property real spare: Math.floor(height - lent - 20 * Theme.unit - strip - numbers - footer - rows * widest) - 1
+    // On an upright screen, what more there is lies above the words, between them and the tray, and most of it below that.
+    readonly property real loose: upright ? Math.max(0, Math.min(24 * Theme.unit, (spare - apart) / 5)) : 0
     readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
-        + Math.max(upright && Theme.textSize > 1.15 ? 18 * Theme.unit : 0, Math.min(apart, spare), upright ? spare / 2 : 0)
+        + Math.max(upright && Theme.textSize > 1.15 ? 18 * Theme.unit : 0, Math.min(apart + 5 * loose, spare))
     // Where the cards themselves begin and end.
     readonly property real cardsBegin: table.x + margin * cell
     readonly property real cardsEnd: table.x + table.width - margin * cell
+    readonly property real wordsSize: upright && Theme.textSize <= 1.15 ? Theme.size(38) : Theme.body
     // Where the words about the game stand: above the tray, or beside it in the same line.
-    readonly property real wordsAt: 12 * Theme.unit
+    readonly property real wordsAt: 12 * Theme.unit + loose
     readonly property real wordsHigh: upright ? wordsLine - 12 * Theme.unit - wordsApart : tray.height
     // The way to the game stands above the cards, with the tray; or below them, where large words leave no room there.
     readonly property real above: practice.width + progress.implicitWidth + skip.implicitWidth + (upright ? 0 : 240 * Theme.unit) + 5 * Theme.gap
@@ -77,8 +82,8 @@ FocusScope {
     readonly property real numbers: (upright ? 66 : 78) * Theme.unit
     // On an upright screen the cards and the numbers of their rows are together as wide as the helper's sentence.
     readonly property real wide: width - 4 * Theme.gap
-    readonly property real widestUpright: (wide - gutter) / Math.max(1, columns - 2 * margin)
-    readonly property real footer: pill.height + (upright ? 32 : 22) * Theme.unit + (practises && skipsBelow ? skip.height + Theme.gap : 0)
+    readonly property real widestUpright: (wide - gutter) / Math.max(1, columns)
+    readonly property real footer: pill.height + (upright ? 28 : 22) * Theme.unit + (practises && skipsBelow ? skip.height + Theme.gap : 0)
     // How high this item has to be on an upright screen, for cells as wide as there is room for.
     readonly property real widest: upright ? widestUpright : (width - 2 * side - numbers - 2 * Theme.gap) / Math.max(1, columns)
     readonly property real wish: 52 * Theme.unit + shelf + apart + numbers + pill.height
@@ -154,7 +159,7 @@ FocusScope {
             horizontalAlignment: Text.AlignHCenter
             wrapMode: width < implicitWidth ? Text.Wrap : Text.NoWrap
             text: view.words["practice-title"]
-            font { pixelSize: Theme.body; bold: true }
+            font { pixelSize: view.wordsSize; bold: true }
             color: Theme.ink
             Accessible.role: Accessible.Heading
         }
@@ -168,7 +173,7 @@ FocusScope {
         verticalAlignment: Text.AlignVCenter
         wrapMode: view.broad ? Text.Wrap : Text.NoWrap
         text: view.board.progress
-        font { pixelSize: Theme.body; bold: true }
+        font { pixelSize: view.wordsSize; bold: true }
         color: Theme.ink
     }
     PlainText {
@@ -183,14 +188,14 @@ FocusScope {
         verticalAlignment: Text.AlignVCenter
         wrapMode: view.broad ? Text.Wrap : Text.NoWrap
         text: view.board.moves
-        font.pixelSize: Theme.body
+        font.pixelSize: view.wordsSize
         color: Theme.faintInk
     }
     Tray {
         id: tray
         x: view.broad ? view.width - view.side : view.upright ? view.headLeft
          : view.practises ? progress.x + progress.width + Theme.gap : moves.x + moves.width + Theme.gap
-        y: view.broad ? table.y : view.upright ? view.wordsAt + view.wordsLine : 12 * Theme.unit
+        y: view.broad ? table.y : view.upright ? view.wordsAt + view.wordsLine + view.loose : 12 * Theme.unit
         width: view.broad ? view.side - Theme.gap : view.upright ? view.headRight - view.headLeft : Math.max(0, end - x - Theme.gap)
         // Its shelf ends with the cards.
         readonly property real end: !view.practises ? view.cardsEnd + Theme.gap - 8 * Theme.unit : view.skipsBelow ? view.width : skip.x
@@ -209,7 +214,7 @@ FocusScope {
         objectName: "pill"
         // What comes next, until the assistant has something to say about it.
         readonly property bool asksSecond: view.board.oneUp && view.open && !view.marks && !view.said && !view.told
-        readonly property real under: cards.y + cards.height + (view.upright ? 20 : 8) * Theme.unit
+        readonly property real under: cards.y + cards.height + (view.upright ? 14 : 8) * Theme.unit
         x: Math.round(Math.max(0, Math.min(view.width - width, view.middle - width / 2)))
         // Above the face, where no sentence stands there.
         y: view.speaking || view.said ? under : Math.round(Math.max(under, view.faceAt - 1.5 * height))
@@ -242,7 +247,7 @@ FocusScope {
             width: Math.min(implicitWidth, view.width - dots.width - 5 * Theme.gap)
             wrapMode: width < implicitWidth ? Text.Wrap : Text.NoWrap
             text: pill.asksSecond ? view.words["game-second"] : view.board.wait
-            font.pixelSize: view.upright && Theme.textSize <= 1.15 ? Theme.size(38) : Theme.body
+            font.pixelSize: view.wordsSize
             color: Theme.ink
             Accessible.role: pill.asksSecond ? Accessible.StaticText : Accessible.AlertMessage
             Accessible.name: text
@@ -279,8 +284,8 @@ FocusScope {
             row: view.markRow
             column: view.markColumn
             cell: view.cell
-            arrow: (view.upright ? 19 : 24) * Theme.unit
-            apart: (view.upright ? 2 : 5) * Theme.unit
+            arrow: (view.upright ? 18 : 24) * Theme.unit
+            apart: (view.upright ? 6 : 5) * Theme.unit
         }
         Repeater {
             model: view.columns
@@ -302,14 +307,14 @@ FocusScope {
             model: view.rows
             PlainText {
                 required property int index
-                x: view.upright ? -30 * Theme.unit - width : -view.numbers
+                x: view.upright ? -view.gutter : -view.numbers
                 y: index * view.cell
                 width: view.numbers - (view.upright ? 0 : 30 * Theme.unit)
                 height: view.cell
                 text: index + 1
                 font { pixelSize: view.upright ? Theme.size(36) : Theme.body; bold: true }
                 color: view.markRow === index ? Theme.deepAmber : Theme.faintInk
-                horizontalAlignment: view.upright ? Text.AlignRight : Text.AlignHCenter
+                horizontalAlignment: view.upright ? Text.AlignLeft : Text.AlignHCenter
                 verticalAlignment: Text.AlignVCenter
                 Accessible.ignored: true
             }

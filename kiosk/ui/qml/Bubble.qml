@@ -10,6 +10,7 @@ Item {
     required property bool hasSpeaker   // whether there is a face below it to point at
     property bool thinks: false         // whether it is still looking for words
     property bool calls: false          // whether it is to be read from far away
+    property bool grows: false          // whether it has room for large words, and always the height of two lines
     property string speaker: ""         // whose words they are; empty where no speaker has a name
 
     // Between the bubble and the face; without a face only the edge of the window has to be kept clear of.
@@ -36,14 +37,25 @@ Item {
         width: words.width
         textFormat: Text.PlainText
         text: words.text
-        font.pixelSize: Theme.size(bubble.calls ? 50 : 36)
+        font.pixelSize: Theme.size(bubble.calls ? 50 : bubble.grows && larger.lineCount <= 2 ? 40 : 36)
         lineHeight: words.lineHeight
+        wrapMode: Text.Wrap
+    }
+    // The same in large words, where there is room for two lines of them.
+    Text {
+        id: larger
+        visible: false
+        width: words.width
+        textFormat: Text.PlainText
+        text: bubble.grows ? words.text : ""
+        font.pixelSize: Theme.size(40)
         wrapMode: Text.Wrap
     }
     Rectangle {
         id: box
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom; bottomMargin: bubble.tail }
-        height: words.height + bubble.tag + 2 * Theme.gap
+        height: Math.max(words.height, least) + bubble.tag + 2 * Theme.gap
+        readonly property real least: bubble.grows ? Math.min(bubble.room, 2 * words.lineHeight * 1.37 * usual.font.pixelSize) : 0
         radius: Theme.radius
         color: Theme.white
         border.color: Theme.sea
@@ -51,7 +63,7 @@ Item {
 
         Balanced {
             id: words
-            anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap; topMargin: Theme.gap + bubble.tag }
+            anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap; topMargin: Theme.gap + bubble.tag + Math.max(0, (box.least - height) / 2) }
             // What would not fit above the face is set smaller: half the size takes a quarter of the room.
             font.pixelSize: {
                 const share = Math.max(0, bubble.room / Math.max(1, usual.height))

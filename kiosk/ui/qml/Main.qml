@@ -126,7 +126,7 @@ Window {
         x: root.wide && root.boardOnRight ? root.width - width : 0
         y: root.wide || !boardPage.visible ? 0
          : Math.round(root.high ? Math.max(0, (free - height) / 2)
-                      : 0.03 * root.room)
+                      : 0.015 * root.room)
         readonly property real free: root.room - corner.height - Theme.gap - root.sentence
         LayoutMirroring.enabled: Theme.mirrored
         LayoutMirroring.childrenInherit: true
@@ -146,7 +146,7 @@ Window {
               : root.kiosk.screen === "introduction" && root.texts <= 1.15 ? 0.66
               : !boardPage.visible ? 0.64
               // The helper keeps its size from the practice to the game.
-              : Math.max(0.62, Math.min(0.64, boardPage.view.wish / root.room))
+              : Math.max(root.texts <= 1 ? 0.628 : 0.62, Math.min(0.64, boardPage.view.wish / root.room))
         // A screen that has only just come takes no input: a double click belongs to the one before.
         enabled: root.kiosk.takesInput && root.kiosk.bare
 
@@ -258,6 +258,7 @@ Window {
                 upright: !root.wide
                 prepares: root.prepares
                 said: helper.says
+                lent: Math.max(0, helper.reach - Theme.gap)
                 faceAt: root.wide || !root.avatar.present ? 0 : helper.y + helper.faceTop - stage.y
                 told: helper.tells
                 onWon: if (!root.board.practice) feast.begin()
@@ -350,9 +351,10 @@ Window {
         rests: root.kiosk.paused
         waits: root.kiosk.asks !== "" || root.kiosk.asksStillThere
         // Large sentences need the room.
-        share: root.wide ? (attractView.visible ? 0.6 : 0.52) : root.texts <= 1.15 ? (boardPage.visible ? 0.68 : attractView.visible ? 0.88 : root.kiosk.screen === "introduction" ? 0.68 : 0.72) : 0.64
+        share: root.wide ? (attractView.visible ? 0.6 : 0.52) : root.texts <= 1.15 ? (boardPage.visible ? (root.texts <= 1 ? 0.77 : 0.68) : attractView.visible ? 0.88 : root.kiosk.screen === "introduction" ? 0.68 : 0.72) : 0.64
         broad: !root.wide
         calls: root.accompanied && attractView.visible
+        grows: reach > 0
         leads: root.asking || !root.speaks
         hushed: root.asking && !root.wide
         readonly property bool done: boardPage.visible && boardPage.view.last.length > 0 && !root.board.practice

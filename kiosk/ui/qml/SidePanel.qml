@@ -29,6 +29,8 @@ Item {
     property bool hushed: false
     // Where its ears begin, in this item.
     readonly property real faceTop: face.y + 0.1 * face.height
+    // Whether its bubble has room for large words.
+    property bool grows: false
     // Whether it speaks to those who pass.
     property bool calls: false
     // A sentence that was read long ago, and is not shown any more.
@@ -108,6 +110,7 @@ Item {
         hasSpeaker: panel.avatar.present
         speaker: panel.avatar.name
         calls: panel.calls
+        grows: panel.grows
     }
     Avatar {
         id: face
