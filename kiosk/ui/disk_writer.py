@@ -3,38 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from threading import Event
+from concurrent.futures import Future
 
-from kiosk import StorageError
 from kiosk.ui.event_loop import Executor
-
-
-class Write:
-    """One write that another thread does."""
-
-    def __init__(self, write: Callable[[], None]) -> None:
-        """Nothing is done before ``run``."""
-        self._write = write
-        self._over = Event()
-        self._failed: StorageError | None = None
-
-    def run(self) -> None:
-        """Do it, on whichever thread this is."""
-        try:
-            self._write()
-        except StorageError as failed:
-            self._failed = failed
-        finally:
-            self._over.set()
-
-    def wait(self) -> None:
-        """Wait until it is over."""
-        self._over.wait()
-
-    def check(self) -> None:
-        """Raise StorageError if the disk did not take it."""
-        if self._failed is not None:
-            raise self._failed
 
 
 class DiskWriter:
@@ -43,7 +14,7 @@ class DiskWriter:
     def __init__(self, executor: Executor) -> None:
         """Have the executor do the writes; it calls back on the interface's thread."""
         self._executor = executor
-        self._under_way: Write | None = None
+        self._under_way: Future[None] | None = None
 
     @property
     def is_under_way(self) -> bool:
@@ -52,20 +23,27 @@ class DiskWriter:
 
     def begin(self, write: Callable[[], None], then: Callable[[], None]) -> None:
         """Begin a write; ``then`` is called when it is over, unless it was forgotten meanwhile."""
-        begun = self._under_way = Write(write)
+        begun = self._under_way = Future[None]()
+
+        def run() -> None:
+            try:
+                write()
+            except Exception as fault:  # noqa: BLE001 - whatever it is, ``end`` raises it
+                begun.set_exception(fault)
+            else:
+                begun.set_result(None)
 
         def end(_: None) -> None:
             if self._under_way is begun:
                 then()
 
-        self._executor(begun.run, end)
+        self._executor(run, end)
 
     def end(self) -> None:
         """End the write that is over; raises StorageError if the disk did not take it."""
         ended, self._under_way = self._under_way, None
         if ended is not None:
-            ended.wait()
-            ended.check()
+            ended.result()
 
     def forget(self) -> None:
         """Do not call back at the end of the write under way."""
