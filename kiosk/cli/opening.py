@@ -63,6 +63,6 @@ def open_kiosk(asked: Opening, beat: Callable[[], None], drawn: Callable[[], Non
             app.run()
     return {
         "data": str(asked.data),
-        "sessions": recorder.sessions_begun,
+        "sessions": recorder.sessions_recorded,
         "interrupted_before": list(recorder.recovered),
     }

@@ -190,7 +190,7 @@ def rehearse(
             rehearsal = _visit(app, seed, pictures, character)
         if app.stop_requested:
             raise click.Abort
-        begun = recorder.sessions_begun
+        begun = recorder.sessions_recorded
     if shots is not None and pictures is not None:
         if headless and begun and character.manner is BehaviourKind.COMPLETES:
             _shoot_covers(prepared, mode, origin, character, pictures, seed)
@@ -275,7 +275,7 @@ def _shoot_sheet(
             Rehearsal(app, seed, pictures, character).run()
         if app.stop_requested:
             raise click.Abort
-        begun = recorder.sessions_begun
+        begun = recorder.sessions_recorded
     if folder is not None and begun and character.manner is BehaviourKind.COMPLETES:
         _shoot_covers(study, mode, origin, character, pictures, seed)
     pictures.sheet.save(shots / f"contact-{character.language}-{layout}.png")
@@ -435,7 +435,7 @@ def _rehearse_day(
                 tell(len(holdings))
         if app.stop_requested:
             raise click.Abort
-        stored = recorder.sessions_begun
+        stored = recorder.sessions_recorded
     told = (
         day_summary(visitors, holdings)
         | {"stored": stored, "seconds": round(monotonic() - begun)}

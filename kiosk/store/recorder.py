@@ -184,8 +184,7 @@ class Recorder:
         self._head = b""
         self._heads = HeadsFile(folder)
         self._kept_lists: dict[SessionKind, AllocationLists] = {}
-        self.sessions_begun = 0
-        """How many sessions were begun with this recorder."""
+        self._recorded: set[int] = set()
         try:
             self._connection, found = self._open()
         except BaseException:
@@ -273,8 +272,13 @@ class Recorder:
             self._next_seq = 1
             self._heads.begin()
             self._written(rows)
-            self.sessions_begun += 1
+            self._recorded.add(session)
             return participant
+
+    @property
+    def sessions_recorded(self) -> int:
+        """How many sessions were begun or gone on with by this recorder."""
+        return len(self._recorded)
 
     def resume(self, number: int) -> Participant:
         """Go on with a session that was interrupted: the next events follow its last one.
@@ -293,6 +297,7 @@ class Recorder:
                 check_not_given_out_again(self._connection, number)
                 self._head = last_hash(self._connection, number)
             self._session = number
+            self._recorded.add(number)
             self._next_seq = 1 + seq
             self._resumed = True
             self._heads.begin()

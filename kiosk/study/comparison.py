@@ -16,6 +16,7 @@ from kiosk.experiment.information import Information
 from kiosk.experiment.items import Choice
 from kiosk.experiment.questionnaire import Item, Questionnaire, facts
 from kiosk.experiment.session_config import Source, StudyConfig
+from kiosk.study.package import LOCAL_KEYS
 
 
 class Impact(Enum):
@@ -38,7 +39,10 @@ class Difference:
     effect: str
 
 
-_NONE = ("title", "experimenter", "shortcuts", "robot.host", "robot.port", "screen.display", "voice.device", "markers")
+_NONE = (
+    *("title", "experimenter", "shortcuts", "markers"),
+    *(f"{section}.{key}" for section, keys in LOCAL_KEYS.items() for key in keys),
+)
 _DATA = (
     *("languages", "stages", "game.rows", "game.columns", "assistance.condition", "assistance.policy"),
     *("assistance.target_rule", "assistance.step", "assistance.memory_model", "assistance.timing"),

@@ -13,6 +13,7 @@ class _LocalRobot(ConfigModel):
 
 class _LocalScreen(ConfigModel):
     display: int | None = None
+    operator_display: int | None = None
 
 
 class _LocalVoice(ConfigModel):

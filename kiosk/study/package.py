@@ -36,7 +36,7 @@ LOCAL_ENDING = ".local.toml"
 FORMAT = 1
 LOCAL_KEYS: Mapping[str, tuple[str, ...]] = {
     "robot": ("host", "port"),
-    "screen": ("display",),
+    "screen": ("display", "operator_display"),
     "voice": ("device",),
 }
 """Settings of one kiosk, besides the section ``experimenter``: no part of a study."""

@@ -49,6 +49,7 @@ def test_its_next_events_follow_its_last_one(folder: Path, provenance: Provenanc
         assert (participant.session, participant.number) == (1, 1)
         recorder.append([ON])
         recorder.append([END])
+        assert recorder.sessions_recorded == 1
     assert kinds(folder, 1) == [
         (1, "SessionStarted"),
         (2, "ContinuePressed"),

@@ -80,6 +80,10 @@ def changed(original: Path, tmp_path: Path) -> Callable[..., list[Difference]]:
 
 CASES: dict[str, tuple[Edit, str, str, Impact]] = {
     "the title": (("study.toml", '"A study"', '"Another"'), "title", "becomes", Impact.NONE),
+    "the experimenter's screen": (
+        ("study.toml", "[consent]", "[screen]\noperator_display = 1\n[consent]"),
+        *("screen.operator_display", "becomes", Impact.NONE),
+    ),
     "a comment": (("form.toml", "[[items]]", "[[items]] # a comment"), "", "", Impact.NONE),
     "the PIN": (
         ("study.toml", "[consent]", f'[experimenter]\npin_hash = "scrypt:10:{"0" * 32}:{"0" * 64}"\n[consent]'),

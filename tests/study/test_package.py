@@ -120,10 +120,12 @@ def test_a_packed_study_is_the_study_that_was_packed(study: Path, package: Packa
 def test_what_belongs_to_one_kiosk_stands_beside_the_package(file: Path) -> None:
     assert open_study(file).experimenter.pin_hash == ""
     local = file.with_suffix(".local.toml")
-    local.write_text(f'{WITH_PIN}[robot]\nhost = "10.0.0.7"\nkey = "secret"\n[screen]\ndisplay = 1\n', "utf-8")
+    screens = "[screen]\ndisplay = 1\noperator_display = 0\n"
+    local.write_text(f'{WITH_PIN}[robot]\nhost = "10.0.0.7"\nkey = "secret"\n{screens}', "utf-8")
     settings = open_study(file)
     assert settings.experimenter.pin_hash.startswith("scrypt:")
-    assert (settings.robot.host, settings.robot.key, settings.screen.display) == ("10.0.0.7", "secret", 1)
+    assert (settings.robot.host, settings.robot.key) == ("10.0.0.7", "secret")
+    assert (settings.screen.display, settings.screen.operator_display) == (1, 0)
     assert read_study(settings).sha256 == read_package(file).sha256
 
 
