@@ -453,6 +453,26 @@ def test_title_and_ways_stand_at_the_same_places_on_all_pages(
     assert len({bottom for _, bottom in on} - {None}) == 1
 
 
+@pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)
+def test_scales_stand_at_the_same_places_on_all_pages_of_four_ratings(
+    kiosk: tuple[Window, StudyConfig], layout: Layout
+) -> None:
+    rated = ASKED["social-intelligence"].items
+    screens, ground = kiosk[0].screens, kiosk[0].shown.contentItem()
+    assert list(shown_in(kiosk, layout, ("four ratings",))) == ["four ratings"]
+    screens.avatar.leave(away=True)
+    places = set()
+    for first in range(0, len(rated), 4):
+        page = rated[first : first + 4]
+        screens.form.show(page, 1, 5)
+        lay_out(kiosk[0].shown)
+        points = [find_item(ground, f"answer-{item.id}-{end}") for item in page for end in (1, 5)]
+        places.add(tuple(whole(point).toRect().getRect() for point in points if point is not None))
+    screens.avatar.leave(away=False)
+    (only,) = places
+    assert len(set(only)) == 2 * 4
+
+
 @pytest.mark.parametrize(
     "layout", [Layout(1920, 1080), Layout(1280, 800), Layout(1080, 1920), Layout(1366, 768, robot=True)], ids=str
 )

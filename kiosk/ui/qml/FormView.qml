@@ -14,113 +14,100 @@ PageFrame {
 
     readonly property bool alone: form.items.length === 1
     readonly property bool dense: form.items.length > 4
+    // What there is of a card's width, without its margins.
+    readonly property real inner: column - 2.4 * Theme.gap
+    // How the rows of a wide page look if the words for the ends of their scales stand at both sides; null if not so.
+    readonly property var flank: width > height && !alone && !dense && Theme.textSize <= 1.15 ? flanks() : null
     // Whether scales stand beside their texts, below each other: then the words for their ends are read once.
     readonly property real rowText: width <= height || alone || Theme.textSize > 1.15 ? 0
-        : sizes.find(size => fits(size, 2)) ?? sizes.find(size => fits(size, 3)) ?? 0
-    // Whether every row has room for the words for its own ends: the eye need not look for them.
-    readonly property bool own: rowText > 0 && !dense && form.items.every(item => scales(item) || item.kind === "slider") && (flanked || ownRows() <= room)
-    // Whether these stand at both sides of the scale, level with it, and not below it.
-    readonly property bool flanked: rowText > 0 && wider && halved && flanks()
+        : flank?.text ?? sizes.find(size => fits(size, 2)) ?? sizes.find(size => fits(size, 3)) ?? 0
+    // Whether every row has the words for its own ends: the eye need not look for them.
+    readonly property bool own: flank !== null || rowText > 0 && !dense && rates() && ownRows() <= room
     readonly property list<real> sizes: [36, 32, 29].map(Theme.size)
-    // How much of a row is the text's, and the points' is what is left.
-    readonly property real textShare: 0.42
+    // How much of a row is its text's and its scale's.
+    readonly property real textWidth: flank?.textWidth ?? 0.42 * inner
+    readonly property real scaleWidth: flank?.scaleWidth ?? 0.54 * inner
+    // How high a row is, and how much of it is above and below that.
+    readonly property real rowHeight: flank?.height ?? 98 * Theme.unit + 1.37 * Theme.size(28)
+    readonly property real rowMargin: flank !== null ? spareMargin(rowHeight) : 18 * Theme.unit
     FontMetrics {
         id: letters
         font { pixelSize: 100; bold: true }
     }
+    // How many lines a question has at this size, in so much width.
+    function lines(text: string, size: real, wide: real): int {
+        const room = 97 * wide / size, gap = letters.advanceWidth(" ")
+        let count = 1, at = 0
+        for (const word of text.split(" ")) {
+            const long = letters.advanceWidth(word)
+            count += at > 0 && at + gap + long > room ? 1 : 0
+            at = at > 0 && at + gap + long <= room ? at + gap + long : long
+        }
+        return count
+    }
     function fits(size: real, most: int): bool {
-        const wide = textShare * (column - 2.4 * Theme.gap) * 0.88
         let tall = 60 * Theme.unit
         for (const item of form.items) {
-            const lines = Math.ceil(letters.advanceWidth(item.text) * size / 100 / wide)
+            const count = lines(item.shown, size, textWidth)
             tall += form.hidden.includes(item.id) ? 0 : !scales(item) ? (dense || tight ? 170 : 210) * Theme.unit
-                : Math.max((dense ? 72 : 92) * Theme.unit, (dense ? lines : Math.max(2, lines)) * 1.37 * size) + (dense ? 18 : 40) * Theme.unit + spread
-            if (scales(item) && lines > most)
+                : Math.max((dense ? 72 : 92) * Theme.unit, (dense ? count : Math.max(2, count)) * 1.37 * size) + (dense ? 18 : 40) * Theme.unit + spread
+            if (scales(item) && count > most)
                 return false
         }
         return tall <= room
     }
-    // Whether the words for the ends of all scales of the page break into two lines of six letters' height in width.
-    readonly property bool halved: !alone && !dense && Theme.textSize <= 1.15
-        && form.items.every(item => !rates(item) || halves(item.left) && halves(item.right))
-    // Whether there is room for each in one line, under the middles of the ends of its scale.
-    readonly property bool lined: !flanked && !alone && !dense && Theme.textSize <= 1.15 && (wider || upright) && lines()
-    // How large these words are, and how wide then; those at the other end, too.
-    readonly property real endSize: Theme.size(lined ? 30 : 28)
-    // The scale stands in the middle of an upright card, and ends where a row of a wide page ends.
-    // They stand under the middles of a row's ends, beside them, or, on an upright card, at its edges.
-    readonly property real ends: flanked ? folded("left") : upright ? 0 : lined ? widest("left") : halved && own ? 6 * endSize : 0
-    readonly property real otherEnds: flanked ? folded("right") : lined && !upright ? widest("right") : ends
-    // How high the scale of a row is with the words for its ends, and how much of the row is above and below it.
-    readonly property real scaleHeight: flanked ? 92 * Theme.unit : lined ? 88 * Theme.unit + 1.37 * endSize : halved ? 84 * Theme.unit + 2.36 * endSize : 98 * Theme.unit + 1.37 * Theme.size(28)
-    readonly property real rowMargin: flanked ? flankedMargin() : (lined ? 22 : halved ? 14 : 18) * Theme.unit
-    function rates(item: var): bool {
-        return ["likert", "differential", "pictures", "slider"].includes(item.kind)
+    // The largest points, words, letters and fewest lines whose rows fit: the text has the width that a scale leaves.
+    function flanks(): var {
+        if (!rates())
+            return null
+        const points = Math.max(1, ...form.items.filter(scales).map(item => item.points))
+        for (const [dot, word, letter, most] of [[100, 32, 36, 2], [100, 32, 34, 2], [100, 32, 32, 2], [100, 32, 32, 3],
+            [92, 30, 36, 2], [92, 30, 32, 2], [92, 30, 32, 3], [84, 28, 36, 2], [84, 28, 32, 2], [84, 28, 29, 2], [84, 28, 29, 3]]) {
+            const point = dot * Theme.unit, end = Theme.size(word), text = Theme.size(letter)
+            const left = folded("left", end), right = folded("right", end)
+            const scaleWidth = left + right + 2 * Theme.gap + (points + 0.3 * (points - 1)) * point
+            const textWidth = inner - scaleWidth - 2 * Theme.gap
+            const line = 1.4 * end + 80 * Theme.unit, counts = form.items.map(item => lines(item.shown, text, textWidth))
+            const height = Math.max(point, 1.37 * text * Math.max(2, ...counts), form.items.every(scales) ? 0 : line)
+            if (textWidth > 0.3 * inner && Math.max(...counts) <= most && spareMargin(height) >= 14 * Theme.unit)
+                return {point, line, end, left, right, scaleWidth, textWidth, text, height}
+        }
+        return null
     }
-    function widest(end: string): real {
-        const wide = Math.max(112 * Theme.unit, ...form.items.filter(rates).map(item => 1.03 * thin.advanceWidth(item[end]) * Theme.size(30) / 100))
-        // In steps, so that the scales of pages with almost the same words stand at one place.
-        return Math.ceil(wide / (24 * Theme.unit)) * 24 * Theme.unit
+    // What the page's height leaves above and below each row that is so high, up to a limit.
+    function spareMargin(height: real): real {
+        const rows = Math.max(1, form.items.filter(item => !form.hidden.includes(item.id)).length)
+        return Math.min(44 * Theme.unit, (room / rows - height - spread) / 2)
     }
-    // How wide the words for these ends are in two lines at most; most are as wide, so pages look alike.
-    function folded(end: string): real {
+    // How wide the words for these ends are, in two lines if they are long. In steps: so the scales of pages with almost
+    // the same words stand at one place.
+    function folded(end: string, size: real): real {
+        const wide = words => thin.advanceWidth(words.join(" ")) * size / 100
         let most = 0
-        for (const item of form.items.filter(rates)) {
+        for (const item of form.items) {
             const words = item[end].split(" ")
-            most = Math.max(most, Math.min(...words.map((_, at) => Math.max(
-                thin.advanceWidth(words.slice(0, at).join(" ")), thin.advanceWidth(words.slice(at).join(" "))))))
+            most = Math.max(most, wide(words) <= 5.4 * size ? wide(words)
+                : Math.min(...words.map((_, at) => Math.max(wide(words.slice(0, at)), wide(words.slice(at))))))
         }
-        return Math.max(168 * Theme.unit, Math.ceil(1.06 * most * Theme.size(28) / 100 / (24 * Theme.unit)) * 24 * Theme.unit)
-    }
-    function flanks(): bool {
-        const wide = (0.96 - textShare) * (column - 2.4 * Theme.gap) - folded("left") - folded("right") - 2 * Theme.gap
-        return flankedMargin() >= 14 * Theme.unit && form.items.every(item => !scales(item)
-            || wide - item.points * 84 * Theme.unit >= 0.36 * 84 * Theme.unit * (item.points - 1))
-    }
-    // What is left of the page's height above and below each row, up to a limit.
-    function flankedMargin(): real {
-        const wide = textShare * (column - 2.4 * Theme.gap) * 0.88
-        let tall = 0, rows = 0
-        for (const item of form.items.filter(item => !form.hidden.includes(item.id))) {
-            const lines = Math.ceil(letters.advanceWidth(item.text) * rowText / 100 / wide)
-            tall += Math.max(92 * Theme.unit, Math.max(2, lines) * 1.37 * rowText) + spread
-            rows++
-        }
-        return Math.min(38 * Theme.unit, (room - tall) / Math.max(1, rows) / 2)
-    }
-    function lines(): bool {
-        const wide = upright ? column - 2.4 * Theme.gap : (0.96 - textShare) * (column - 2.4 * Theme.gap)
-        const size = (upright ? 112 : 84) * Theme.unit, one = widest("left"), other = widest("right")
-        const both = upright ? 2 * Math.max(one, other) : one + other
-        return both + Theme.gap <= wide && form.items.every(item => !rates(item) || item.kind === "slider"
-            || wide - both / 2 + size - item.points * size >= 0.45 * size * (item.points - 1))
-    }
-    function halves(text: string): bool {
-        const gap = letters.advanceWidth(" "), room = 620
-        let lines = 1, at = -gap
-        for (const word of text.split(" ")) {
-            const wide = letters.advanceWidth(word)
-            if (wide > room)
-                return false
-            if (at + gap + wide > room) {
-                lines++
-                at = -gap
-            }
-            at += gap + wide
-        }
-        return lines <= 2
+        return Math.ceil(1.03 * most / (16 * Theme.unit)) * 16 * Theme.unit
     }
     function ownRows(): real {
-        const wide = column - 2.4 * Theme.gap, size = Theme.size(28)
+        const size = Theme.size(28)
         let tall = 0
         for (const item of form.items) {
-            const lines = Math.ceil(letters.advanceWidth(item.text) * rowText / 100 / (textShare * wide * 0.88))
             const end = Math.max(letters.advanceWidth(item.left), letters.advanceWidth(item.right)) * size / 100
-            if (end > (0.96 - textShare) * wide / 2 - Theme.gap)
+            if (end > scaleWidth / 2 - Theme.gap)
                 return Infinity
-            tall += form.hidden.includes(item.id) ? 0 : Math.max(scaleHeight, lines * 1.37 * rowText) + 2 * rowMargin + spread
+            tall += form.hidden.includes(item.id) ? 0
+                : Math.max(rowHeight, lines(item.shown, rowText, textWidth) * 1.37 * rowText) + 2 * rowMargin + spread
         }
         return tall
+    }
+    // How much height a card of an upright page of ratings keeps for its question, so that scales stand at the same
+    // places on each of these pages: two lines, unless the page is too low for that.
+    readonly property real questionHeight: {
+        const two = 2 * 1.37 * Theme.size(38), card = two + 1.37 * Theme.size(30) + 194 * Theme.unit
+        return rated && form.items.length * card <= room - lead ? two : 0
     }
     readonly property real spread: (dense || tight ? 8 : 12) * Theme.unit
     // How far below the line of the pages the first card begins.
@@ -164,14 +151,14 @@ PageFrame {
     readonly property bool mirrored: Theme.mirrored
     // Whether a few ratings have an upright page to themselves.
     readonly property bool rated: upright && !alone && Theme.textSize <= 1.15 && form.items.length < 5
-        && form.items.every(item => scales(item) || item.kind === "slider")
+        && rates()
     // Whether the keys of a number stand in the helper's place.
     readonly property bool keysBeside: keyboard.visible && keyboard.numbers
 
     // Whether the keys of a number stand below this page, where the helper is on an upright screen.
     readonly property bool keysBelow: keyboard.visible && keyboard.numbers && keyboard.y >= height
 
-    wider: !alone && form.items.every(item => scales(item) || item.kind === "slider")
+    wider: !alone && rates()
     title: words["form-title"]
     // Pale until the page is answered, and yet to be pressed: what is left out is pointed out then.
     quiet: form.skips || !form.complete
@@ -205,6 +192,10 @@ PageFrame {
         // The answer may have shown or hidden the items after it.
         goOn(at)
         return true
+    }
+    // Whether there is nothing but ratings on the page.
+    function rates(): bool {
+        return form.items.every(item => scales(item) || item.kind === "slider")
     }
     function scales(item: var): bool {
         return item.kind === "likert" && item.points <= 7 && !item.exempts
@@ -313,7 +304,7 @@ PageFrame {
                 let sum = 0
                 for (let i = 0; i < boxes.count; i++) {
                     const box = boxes.itemAt(i) as FormItem
-                    sum += box?.visible ? box.plain + 30 * Theme.unit : 0
+                    sum += box?.visible ? box.plain + (view.questionHeight > 0 ? 24 : 30) * Theme.unit : 0
                 }
                 return sum
             }
@@ -356,14 +347,13 @@ PageFrame {
                     large: view.width < view.height && view.form.items.length < 5
                     beside: view.own || view.rowText > 0 && view.scales(modelData)
                     own: view.own
-                    ends: view.ends
-                    otherEnds: view.otherEnds
-                    lined: view.lined
-                    flanked: view.flanked
-                    scaleHeight: view.scaleHeight
+                    flank: view.flank
+                    rowHeight: view.rowHeight
                     rowMargin: view.rowMargin
                     rowText: view.rowText
-                    textShare: view.textShare
+                    textWidth: view.textWidth
+                    scaleWidth: view.scaleWidth
+                    questionHeight: view.questionHeight
                     headed: !view.repeats(index)
                     inline: view.inline(modelData)
                     onEntered: field => keyboard.field = field

@@ -21,24 +21,20 @@ Item {
     property bool headed: true
     // Whether every row has the words for its ends, below its own scale.
     property bool own: false
-    // How wide these words are where they stand under the middles of the ends; 0 where they do not.
-    property real ends: 0
-    property real otherEnds: ends
-    // Whether each of them has one line there.
-    property bool lined: false
-    // Whether they stand at both sides of the scale instead, level with it.
-    property bool flanked: false
-    // How large these words are there.
-    property real endSize: Theme.size(28)
-    // How high a scale is with them, and how much of its row is above and below it.
-    property real scaleHeight: 0
+    // How the row looks if they stand at both sides of the scale instead, level with it; null if they do not.
+    property var flank: null
+    // How high a row is, and how much of it is above and below that.
+    property real rowHeight: 0
     property real rowMargin: 0
     // Whether a number stands beside its text, at the end of the card.
     property bool inline: false
     // How large its text is then.
     property real rowText: Theme.body
-    // How much of the row is its text's.
-    property real textShare: 0.42
+    // How much of a row is its text's and its scale's.
+    property real textWidth: 0
+    property real scaleWidth: 0
+    // How much height is kept for a question above its scale; 0 where it has what it needs.
+    property real questionHeight: 0
     // Large texts need that height themselves.
     readonly property bool airy: large && Theme.textSize <= 1.15
     signal entered(Item field)
@@ -53,11 +49,11 @@ Item {
     // How much of what can be added to the distances of this page is added, from 0 to 1.
     property real loosened: 0
     // How high it is without that, and how much can be added.
-    readonly property real plain: head + (inline ? Math.max(told.height, way.height) : told.height + (way.active ? usualSpacing + way.height : 0)) + 2 * usualMargin
+    readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asked.asks + (way.active ? usualSpacing + way.height : 0)) + 2 * usualMargin
     readonly property real addable: alone || beside ? 0 : 32 * Theme.unit
-    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : airy ? lined ? 26 : 22 : calm ? 14 : 8) * Theme.unit
+    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : questionHeight > 0 ? Theme.textSize > 1 ? 12 : 18 : airy ? 22 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
-    readonly property real usualMargin: alone ? 0 : own ? rowMargin : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
+    readonly property real usualMargin: alone ? 0 : own ? rowMargin : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : questionHeight > 0 ? 12 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
     // Letters have some air above them already; what stands below them does not.
     readonly property real raised: alone || beside || inline || dense ? 0 : 4 * Theme.unit
     readonly property var ways: ({
@@ -119,21 +115,24 @@ Item {
         Item {
             id: asked
             width: parent.width
+            // How high the question is, or the place that is kept for it.
+            readonly property real asks: Math.max(told.height, box.questionHeight)
             // Where the middle of a row is: that of the points, and not of words above them.
             readonly property real scaled: (way.item as PointScale)?.size ?? (way.item as SliderScale)?.rail ?? 0
-            readonly property real above: (way.item as SliderScale)?.above ?? 0
-            // A line has what there is to do above it: in a row it stands in the middle and takes some of the margins.
-            readonly property bool slides: box.own && !box.flanked && box.item.kind === "slider"
+            // How high the words are that head the points of a table.
+            readonly property real heads: (way.item as PointScale)?.head ?? 0
+            // A line stands in the middle of a row with what there is to do above it, and takes some of the margins.
+            readonly property bool slides: box.own && box.item.kind === "slider"
             // The text is level with the points. With the light words below them, these stand a little above the middle.
-            readonly property real axis: slides || box.flanked ? height / 2 : box.own ? Math.max((height - way.height + scaled) / 2 + 0.3 * box.rowMargin, told.height / 2 - 8 * Theme.unit) : middle
+            readonly property real axis: slides || box.flank ? middle : box.own ? Math.max((height - way.height + scaled) / 2 + 0.3 * box.rowMargin, told.height / 2 - 8 * Theme.unit) : middle
             // Rows of one line and of two are as high; with words for its ends it is as high as a scale and a line of words.
-            readonly property real middle: Math.max(box.own ? box.scaleHeight : scaled, slides ? way.height - 1.2 * box.rowMargin : 0, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
-            height: box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : told.height + (way.active ? content.spacing + way.height : 0)
+            readonly property real middle: Math.max(box.own ? box.rowHeight : scaled, slides && !box.flank ? way.height - 1.2 * box.rowMargin : 0, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
+            height: box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : asks + (way.active ? content.spacing + way.height : 0)
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : 0
-                width: box.beside ? box.textShare * asked.width : box.inline ? asked.width - 470 * Theme.unit : asked.width
+                y: box.beside ? asked.axis - height / 2 : ((box.inline ? asked.height : asked.asks) - height) / 2
+                width: box.beside ? box.textWidth : box.inline ? asked.width - 470 * Theme.unit : asked.width
                 spacing: box.inline ? 0 : content.spacing
                 Balanced {
                     id: question
@@ -172,9 +171,9 @@ Item {
             }
             Loader {
                 id: way
-                readonly property real room: box.beside ? (0.96 - box.textShare) * asked.width : asked.width
+                readonly property real room: box.beside ? box.scaleWidth : asked.width
                 x: Theme.across(box.beside ? asked.width - room : box.inline ? asked.width - width : 0, width, asked.width)
-                y: asked.slides ? (asked.height - height) / 2 : box.flanked ? asked.axis - asked.scaled / 2 - asked.above : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - height + asked.scaled / 2 : told.height + content.spacing
+                y: box.flank ? asked.middle - (asked.slides ? box.flank.line : box.flank.point) / 2 : asked.slides ? (asked.height - height) / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : asked.asks + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
@@ -246,11 +245,7 @@ Item {
             beside: box.beside
             headed: box.headed
             own: box.own
-            ends: box.ends
-            otherEnds: box.otherEnds
-            lined: box.lined
-            flanked: box.flanked
-            endSize: box.endSize
+            flank: box.flank
             lift: box.own ? 0 : box.margin + asked.middle - size / 2 + 8 * Theme.unit
             item: box.item.id
             label: box.item.text
@@ -271,11 +266,7 @@ Item {
         SliderScale {
             width: way.room
             own: box.own
-            ends: box.ends
-            otherEnds: box.otherEnds
-            lined: box.lined
-            flanked: box.flanked
-            endSize: box.endSize
+            flank: box.flank
             item: box.item.id
             label: box.item.text
             lowest: box.item.lowest

@@ -23,38 +23,28 @@ Item {
     property bool headed: true
     // Whether they stand below the points of every row instead.
     property bool own: false
-    // How wide the words for its ends are where they stand under the middles of its ends; 0 where they do not.
-    property real ends: 0
-    property real otherEnds: ends
-    // Whether each of them has one line there.
-    property bool lined: false
-    // Whether they stand at both sides of the points instead, level with them.
-    property bool flanked: false
-    // How large they are where they stand so.
-    property real endSize: Theme.size(28)
+    // How its row looks if they stand at both sides of the points instead, level with them; null if they do not.
+    property var flank: null
     // How far above the points they stand then.
     property real lift: 0
     signal chosen(int point)
 
     readonly property bool pictured: pictures.length > 0
-    readonly property real wish: (alone ? 132 : flanked ? 84 : beside ? dense ? 72 : own && lined ? 84 : own && ends > 0 ? 80 : 92 : dense ? 58 : tight ? 66 : large ? 112 : 76) * Theme.unit * (pictured ? 1.25 : 1)
-    readonly property real size: Math.min(wish, width / (points * 1.45))
+    readonly property real wish: (alone ? 132 : beside ? dense ? 72 : 92 : dense ? 58 : tight ? 66 : large ? 112 : 76) * Theme.unit * (pictured ? 1.25 : 1)
+    readonly property real size: flank?.point ?? Math.min(wish, width / (points * 1.45))
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real most: 250 * Theme.unit * Theme.textSize
     readonly property bool roomy: lowest.implicitWidth + highest.implicitWidth + 2 * Theme.gap + points * size + least <= width
-    readonly property real leftRoom: flanked ? ends : roomy ? lowest.implicitWidth : Math.min(lowest.implicitWidth, most)
-    readonly property real rightRoom: flanked ? otherEnds : roomy ? highest.implicitWidth : Math.min(highest.implicitWidth, most)
+    readonly property real leftRoom: flank ? flank.left : roomy ? lowest.implicitWidth : Math.min(lowest.implicitWidth, most)
+    readonly property real rightRoom: flank ? flank.right : roomy ? highest.implicitWidth : Math.min(highest.implicitWidth, most)
     readonly property real spare: width - leftRoom - rightRoom - 2 * Theme.gap - points * size
     readonly property real least: 0.42 * size * (points - 1)
-    readonly property bool below: !flanked && (alone || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least))
-    readonly property bool centred: !flanked && ends > 0 && below && !pictured && !alone && (!beside || own)
-    readonly property real inset: centred ? Math.max(0, (ends - size) / 2) : 0
-    readonly property real otherInset: centred ? Math.max(0, (otherEnds - size) / 2) : 0
-    readonly property real gap: flanked ? spare / Math.max(1, points - 1) : beside || centred ? (width - inset - otherInset - points * size) / Math.max(1, points - 1) : pictured ? 0.4 * size : alone ? 0.25 * size
+    readonly property bool below: !flank && (alone || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least))
+    readonly property real gap: flank ? spare / Math.max(1, points - 1) : beside ? (width - points * size) / Math.max(1, points - 1) : pictured ? 0.4 * size : alone ? 0.25 * size
         : Math.min(1.6 * size, Math.max(0.25 * size, (below ? width - points * size : spare) / Math.max(1, points - 1)))
     readonly property real span: points * size + (points - 1) * gap
 
-    readonly property real under: centred ? 4 * Theme.unit : own ? 6 * Theme.unit : 0.5 * Theme.gap
+    readonly property real under: (own ? 6 : large && Theme.textSize <= 1.15 ? 20 : 12) * Theme.unit
     readonly property real words: Math.max(lowest.height, highest.height)
     // Below a few points there would be room for a few letters only: the ends then reach beyond the points.
     readonly property real half: Math.min(width / 2 - Theme.gap, Math.max(span / 2 - 0.5 * Theme.gap, most))
@@ -62,7 +52,7 @@ Item {
     // In a table the ends stand above the points: they head the rows below, too.
     readonly property real head: beside && headed && !own ? words + lift : 0
 
-    height: flanked ? size : beside && !own ? head + row.height : below ? row.height + words + under : Math.max(row.height, words)
+    height: flank ? size : beside && !own ? head + row.height : below ? row.height + words + under : Math.max(row.height, words)
 
     // Under the first point, or above it; or before it, at the edge where the question begins.
     PlainText {
@@ -70,25 +60,25 @@ Item {
         visible: !scale.beside || scale.own || scale.headed
         x: Theme.across(0, width, scale.width)
         y: scale.beside && !scale.own ? scale.words - height : scale.below ? row.height + scale.under : (scale.height - height) / 2
-        width: scale.centred || scale.flanked ? scale.ends : scale.below ? scale.half : scale.leftRoom
+        width: scale.below ? scale.half : scale.leftRoom
         text: scale.leftEnd
-        horizontalAlignment: scale.centred ? Text.AlignHCenter : scale.flanked ? Text.AlignRight : Text.AlignLeft
-        lineHeight: scale.centred || scale.flanked ? 0.86 : 1
-        font.pixelSize: scale.ends > 0 && !scale.alone ? scale.endSize : scale.own ? Theme.size(28) : scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small
+        horizontalAlignment: scale.flank ? Text.AlignRight : Text.AlignLeft
+        lineHeight: scale.flank ? 0.9 : 1
+        font.pixelSize: scale.flank?.end ?? (scale.own ? Theme.size(28) : scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small)
         wrapMode: Text.Wrap
         color: Theme.ink
     }
     PlainText {
         id: highest
         visible: lowest.visible
-        readonly property real end: scale.centred ? scale.width : Math.max(scale.span, 2 * scale.half + Theme.gap)
+        readonly property real end: Math.max(scale.span, 2 * scale.half + Theme.gap)
         x: Theme.across(scale.below ? end - width : scale.leftRoom + scale.span + 2 * Theme.gap, width, scale.width)
         y: scale.beside && !scale.own ? scale.words - height : scale.below ? lowest.y : (scale.height - height) / 2
-        width: scale.centred || scale.flanked ? scale.otherEnds : scale.below ? scale.half : scale.rightRoom
+        width: scale.below ? scale.half : scale.rightRoom
         text: scale.rightEnd
-        horizontalAlignment: scale.centred ? Text.AlignHCenter : scale.below ? Text.AlignRight : Text.AlignLeft
+        horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
         lineHeight: lowest.lineHeight
-        font.pixelSize: scale.ends > 0 && !scale.alone ? scale.endSize : scale.own ? Theme.size(28) : scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small
+        font.pixelSize: lowest.font.pixelSize
         wrapMode: Text.Wrap
         color: Theme.ink
     }
@@ -103,8 +93,8 @@ Item {
     }
     Row {
         id: row
-        x: Theme.across(scale.below ? scale.inset : scale.leftRoom + Theme.gap, width, scale.width)
-        y: scale.beside && !scale.flanked ? scale.head : scale.below ? 0 : (scale.height - height) / 2
+        x: Theme.across(scale.below ? 0 : scale.leftRoom + Theme.gap, width, scale.width)
+        y: scale.beside && !scale.flank ? scale.head : scale.below ? 0 : (scale.height - height) / 2
         spacing: scale.gap
         Repeater {
             id: buttons
@@ -139,7 +129,7 @@ Item {
                         anchors.centerIn: parent
                         visible: !scale.pictured
                         text: point.number
-                        font { pixelSize: Math.min(scale.alone ? Theme.heading : Theme.body, (scale.alone ? 0.55 : 0.5) * scale.size); bold: true }
+                        font { pixelSize: Math.min(Theme.heading, Math.max(0.42 * scale.size, Math.min(Theme.body, 0.5 * scale.size))); bold: true }
                         color: point.on ? Theme.white : Theme.ink
                     }
                     Image {
@@ -154,7 +144,7 @@ Item {
                 background: Rectangle {
                     radius: scale.pictured ? Theme.radius : width / 2
                     // Only what is chosen is filled; the pointer over it changes the edge alone.
-                    color: point.on ? (scale.pictured ? Theme.sand : Theme.sea) : Theme.white
+                    color: point.on ? (scale.pictured ? Theme.sand : Theme.sea) : scale.pictured ? Theme.white : Theme.touchable
                     border.color: Theme.sea
                     border.width: (point.on && scale.pictured ? 8 : point.hovered ? 5 : 3) * Theme.unit
                     FocusRing {

@@ -23,62 +23,48 @@ Item {
     property bool large: false
     // Whether it is a row of a table, as high as the points of the others.
     property bool own: false
-    // How wide the words for its ends are where they stand under the ends of the line; 0 where they do not.
-    property real ends: 0
-    property real otherEnds: ends
-    // Whether each of them has one line there.
-    property bool lined: false
-    // Whether they stand at both sides of the line instead, level with it.
-    property bool flanked: false
-    // How large the words for its ends are where they stand so.
-    property real endSize: Theme.size(28)
+    // How its row looks if the words for its ends stand at both sides of the line, level with it; null if they do not.
+    property var flank: null
     signal chosen(int value)
 
     readonly property int range: highest - lowest
     readonly property int leap: Math.max(1, Math.round(range / 10))
     // How high the line is: as easy to hit as a point of the others.
-    readonly property real rail: (own ? 60 : large || alone ? 66 : 64) * Theme.unit
+    readonly property real rail: (own && !flank ? 64 : dense ? 64 : 76) * Theme.unit
     // The handle, with room around it in the line.
     readonly property real thickness: rail - 12 * Theme.unit
 
-    // How large the hand is that points at the line, and what there is to do above it.
-    readonly property real hand: (large || alone ? 60 : own ? 46 : 38) * Theme.unit
-    readonly property real hintHeight: Math.max(hand, 1.37 * (level ? Theme.small : lower.font.pixelSize))
-    readonly property real above: hintHeight + (own ? 1 : 4) * Theme.unit
+    // What there is to do stands above it.
+    readonly property real hintHeight: 1.4 * hint.font.pixelSize
+    readonly property real above: hintHeight + (own && !flank ? 1 : 4) * Theme.unit
 
     readonly property real words: Math.max(lower.height, upper.height)
-    readonly property real apart: (own ? 3 : 4) * Theme.unit
-    // In a row its line begins and ends where the points of the others do.
-    readonly property real point: (lined ? 84 : 80) * Theme.unit
-    readonly property real inset: !flanked && own && ends > 0 ? Math.max(0, (ends - point) / 2) : 0
-    readonly property real otherInset: !flanked && own && ends > 0 ? Math.max(0, (otherEnds - point) / 2) : 0
-    // How far the words for its ends stand within its round ends.
-    readonly property real round: 8 * Theme.unit
+    readonly property real apart: (own ? 3 : large ? 11 : 4) * Theme.unit
     // Among other kinds of items the ends stand beside the line, and what there is to do in it.
     readonly property bool level: !own && !alone && !large
     readonly property real most: 250 * Theme.unit * Theme.textSize
-    readonly property bool below: !flanked && (!level || width < 4 * most)
-    readonly property real leftRoom: flanked ? ends + Theme.gap : below ? 0 : Math.min(lower.implicitWidth, most) + Theme.gap
-    readonly property real rightRoom: flanked ? otherEnds + Theme.gap : below ? 0 : Math.min(upper.implicitWidth, most) + Theme.gap
+    readonly property bool below: !flank && (!level || width < 4 * most)
+    readonly property real leftRoom: flank ? flank.left + Theme.gap : below ? 0 : Math.min(lower.implicitWidth, most) + Theme.gap
+    readonly property real rightRoom: flank ? flank.right + Theme.gap : below ? 0 : Math.min(upper.implicitWidth, most) + Theme.gap
 
-    height: flanked ? above + rail : below ? above + slider.height + apart + words : Math.max(above + slider.height, words)
+    height: flank ? above + rail : below ? above + slider.height + apart + words : Math.max(above + slider.height, words)
 
     PlainText {
         id: lower
         y: scale.below ? slider.y + slider.height + scale.apart : slider.y + (slider.height - height) / 2
-        x: Theme.across(scale.below ? scale.inset + scale.round : 0, width, scale.width)
+        x: Theme.across(0, width, scale.width)
         width: scale.below ? slider.width / 2 - Theme.gap : scale.leftRoom - Theme.gap
         text: scale.leftEnd
-        horizontalAlignment: scale.flanked ? Text.AlignRight : Text.AlignLeft
-        lineHeight: scale.flanked || scale.ends > 0 && scale.below && !scale.alone ? 0.86 : 1
-        font.pixelSize: scale.ends > 0 && !scale.alone ? scale.endSize : Theme.size(scale.own ? 28 : 30)
+        horizontalAlignment: scale.flank ? Text.AlignRight : Text.AlignLeft
+        lineHeight: scale.flank ? 0.9 : 1
+        font.pixelSize: scale.flank?.end ?? Theme.size(scale.own ? 28 : 30)
         wrapMode: Text.Wrap
         color: Theme.ink
     }
     PlainText {
         id: upper
         y: scale.below ? lower.y : slider.y + (slider.height - height) / 2
-        x: Theme.across(scale.below ? scale.inset + slider.width - scale.round - width : scale.leftRoom + slider.width + scale.rightRoom - width, width, scale.width)
+        x: Theme.across(scale.below ? slider.width - width : scale.leftRoom + slider.width + scale.rightRoom - width, width, scale.width)
         width: scale.below ? lower.width : scale.rightRoom - Theme.gap
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
@@ -98,10 +84,10 @@ Item {
             tell(scale.answered || Math.abs(by) === scale.range ? value + by : value)
         }
         objectName: `slider-${scale.item}`
-        x: Theme.across(scale.leftRoom + scale.inset, width, scale.width)
+        x: Theme.across(scale.leftRoom, width, scale.width)
         y: scale.below ? scale.above : (scale.height - height + scale.above) / 2
         // On a page of several, its ends stand at the same edges as those of the points.
-        width: scale.alone ? Math.min(900 * Theme.unit, scale.width) : scale.width - scale.leftRoom - scale.rightRoom - scale.inset - scale.otherInset
+        width: scale.alone ? Math.min(900 * Theme.unit, scale.width) : scale.width - scale.leftRoom - scale.rightRoom
         height: scale.rail
         padding: 0
         leftPadding: (scale.rail - scale.thickness) / 2
@@ -137,10 +123,18 @@ Item {
             height: scale.rail
             radius: height / 2
             // As the points of the others.
-            color: Theme.white
+            color: Theme.touchable
             border { color: Theme.sea; width: (slider.hovered ? 5 : 3) * Theme.unit }
             // Where the middle of the handle can be.
             readonly property real inset: slider.leftPadding + scale.thickness / 2
+            // The line itself: without it this would look like a field to type in.
+            Rectangle {
+                x: groove.inset
+                y: (scale.rail - height) / 2
+                width: slider.width - 2 * groove.inset
+                height: 4 * Theme.unit
+                color: Theme.sea
+            }
             // A tenth of the way each, or a step where there are fewer. All are alike: a longer one would look chosen.
             Repeater {
                 id: ticks
@@ -151,7 +145,7 @@ Item {
                     x: middle - width / 2
                     y: (scale.rail - height) / 2
                     width: 3 * Theme.unit
-                    height: 0.3 * scale.rail
+                    height: 0.32 * scale.rail
                     radius: width / 2
                     color: Theme.sea
                 }
@@ -174,33 +168,45 @@ Item {
         }
     }
     // As long as nothing is chosen there is no handle: one that stood there would suggest an answer. What there is to do
-    // stands above the line: between the words for its ends it would name the middle.
+    // stands above the line: between the words for its ends it would name the middle. Its arrows reach to both ends, as
+    // a hand would point at one answer.
     PlainText {
         id: hint
         objectName: `touch-${scale.item}`
-        readonly property real hand: scale.hand
-        readonly property real sign: hand + 4 * Theme.unit
         visible: !scale.answered && !slider.pressed
         x: slider.x + (slider.width - width) / 2
         y: slider.y - scale.above
         width: Math.min(implicitWidth, slider.width)
         height: scale.hintHeight
         verticalAlignment: Text.AlignVCenter
-        leftPadding: Theme.mirrored ? 0 : sign
-        rightPadding: Theme.mirrored ? sign : 0
         text: scale.touch
         font.pixelSize: scale.level ? Theme.small : lower.font.pixelSize
         color: Theme.ink
-        // A hand whose finger points at the line.
-        Drawing {
-            x: Theme.across((hint.hand - width) / 2, width, hint.width)
-            y: (hint.height - height) / 2
-            scale: hint.hand / 24
-            thick: 1.7
-            rotation: 180
-            ink: Theme.sea
-            path: "M8.5 13.5 V4.3 A1.8 1.8 0 0 1 12.1 4.3 V11 M12.1 9.8 A1.8 1.8 0 0 1 15.7 9.8 V11.5 M15.7 10.9 A1.8 1.8 0 0 1 19.3 10.9 V15.5 "
-                + "A6.2 6.2 0 0 1 13.1 21.7 H12.6 A6.2 6.2 0 0 1 7.6 19.2 L4.4 15.2 A1.7 1.7 0 0 1 7 13 L8.5 14.6"
+        Repeater {
+            model: [-1, 1]
+            Item {
+                id: arrow
+                required property int modelData
+                visible: width > 1.5 * hint.height
+                x: modelData < 0 ? -width - 0.8 * Theme.gap : hint.width + 0.8 * Theme.gap
+                width: (slider.width - hint.width) / 2 - 0.8 * Theme.gap - slider.height / 2
+                height: hint.height
+                rotation: modelData < 0 ? 180 : 0
+                Rectangle {
+                    y: (arrow.height - height) / 2
+                    width: arrow.width - 2 * Theme.unit
+                    height: 3 * Theme.unit
+                    color: Theme.sea
+                }
+                Drawing {
+                    x: arrow.width - width
+                    y: (arrow.height - height) / 2
+                    scale: 1.2 * Theme.unit
+                    thick: 2.4
+                    ink: Theme.sea
+                    path: "M15 5 L22 12 L15 19"
+                }
+            }
         }
     }
 }
