@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import closing
 from itertools import count
 
 import pytest
+from PySide6.QtGui import QGuiApplication
 
 from kiosk.config import Settings
 from kiosk.experiment import events as happened
@@ -15,53 +16,29 @@ from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.transitions import BEFORE_DECIDING
 from kiosk.store.database import FILE
 from kiosk.store.queries import open_repository
-from kiosk.ui.rehearsal import Rehearsal
-from kiosk.ui.window import RunMode
-from tests.ui.conftest import Booth, MakeBooth
-from tests.ui.headless import HALF
+from tests.ui.conftest import Booth
+from tests.ui.headless import HALF, headless
 from tests.ui.small_disk import SmallDisk
+from tests.ui.visiting import PAIR, go_on_to_the_end, go_to
 
-SMALL = Settings.model_validate(
-    {
-        "game": {"rows": 2, "columns": 2},
-        "practice": {"rows": 2, "columns": 2},
-        "languages": ["en"],
-        "questionnaires": ["trust"],
-    }
-)
+SMALL = Settings.model_validate({"languages": ["en"], "questionnaires": ["trust"], **PAIR})
 KEPT = [stage for stage in Stage if stage not in {*BEFORE_DECIDING, Stage.ATTRACT, Stage.OVER}]
 
 
-@pytest.fixture
-def run_mode() -> RunMode:
-    """Return a mode in which sessions are drawn faster: nothing here is about how they look."""
-    return HALF
-
-
-@pytest.fixture
+@pytest.fixture(scope="module")
 def disk() -> SmallDisk:
     """Return the disk under the booth."""
     return SmallDisk()
 
 
-@pytest.fixture
-def booth(make_booth: MakeBooth, disk: SmallDisk) -> Booth:
-    """Return a booth on a disk that can be full."""
-    return make_booth(settings=SMALL, opened=disk.open)
-
-
-def go_to(booth: Booth, stage: Stage) -> None:
-    """Have a visitor come to this stage and no further."""
-
-    class Visitor(Rehearsal):
-        def _do_what_comes_next(self) -> None:
-            if self._app.runner.stage is stage:
-                self._app.quit()
-            else:
-                super()._do_what_comes_next()
-
-    Visitor(booth.app, 1).run()
-    assert booth.app.runner.stage is stage
+@pytest.fixture(scope="module")
+def booth(qapp: QGuiApplication, disk: SmallDisk, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Booth]:
+    """Provide a booth on a disk that can be full; each test leaves it at the start screen, as a day does."""
+    data = tmp_path_factory.mktemp("data")
+    with headless(SMALL, data, mode=HALF, opened=disk.open) as app:
+        while not app.window.isExposed():
+            qapp.processEvents()
+        yield Booth(app, data)
 
 
 def write_until(booth: Booth, over: Callable[[], bool]) -> None:
@@ -78,7 +55,7 @@ def write_until(booth: Booth, over: Callable[[], bool]) -> None:
 def test_a_full_disk_in_any_stage_is_calm_for_the_visitor_and_told_in_the_log(
     booth: Booth, disk: SmallDisk, stage: Stage, caplog: pytest.LogCaptureFixture
 ) -> None:
-    go_to(booth, stage)
+    go_to(booth.app, stage)
     disk.fill()
     write_until(booth, lambda: booth.screen == "pause")
     [told] = caplog.messages
@@ -87,20 +64,23 @@ def test_a_full_disk_in_any_stage_is_calm_for_the_visitor_and_told_in_the_log(
         assert database.execute("PRAGMA integrity_check").fetchall() == [("ok",)]
     disk.empty()
     booth.wait_until(lambda: booth.screen == "attract")
-    booth.rehearse(seed=2)
+    booth.click("start-en")
+    go_on_to_the_end(booth.app)
     with open_repository(booth.data) as stored:
-        assert [session.status for session in stored.sessions()] == [Status.INTERRUPTED, Status.COMPLETED]
-        for session in (1, 2):
-            assert [record["seq"] for record in stored.records(session)] == [
-                *range(1, len(stored.records(session)) + 1)
-            ]
+        last = stored.sessions()[-2:]
+        assert [session.status for session in last] == [Status.INTERRUPTED, Status.COMPLETED]
+        for session in last:
+            records = stored.records(session.id)
+            assert [record["seq"] for record in records] == [*range(1, len(records) + 1)]
     caplog.clear()
 
 
 def test_a_disk_that_is_full_before_anything_is_kept_stops_nobody_who_does_not_take_part(
     booth: Booth, disk: SmallDisk, caplog: pytest.LogCaptureFixture
 ) -> None:
-    go_to(booth, Stage.CONSENT)
+    with open_repository(booth.data) as stored:
+        before = stored.sessions()
+    go_to(booth.app, Stage.CONSENT)
     for purpose in ("take_part", "store"):
         booth.click(f"purpose-{purpose}")
     disk.fill()
@@ -110,5 +90,5 @@ def test_a_disk_that_is_full_before_anything_is_kept_stops_nobody_who_does_not_t
     disk.empty()
     booth.wait_until(lambda: booth.screen == "attract")
     with open_repository(booth.data) as stored:
-        assert stored.sessions() == []
+        assert stored.sessions() == before
     caplog.clear()

@@ -24,31 +24,18 @@ from kiosk.store.verify import verify
 from kiosk.ui.app import App
 from kiosk.ui.rehearsal import Rehearsal
 from tests.ui.headless import HALF, headless
+from tests.ui.visiting import PAIR, go_on_to_the_end, go_to
 
-SMALL = Settings.model_validate(
-    {
-        "game": {"rows": 2, "columns": 2},
-        "practice": {"rows": 2, "columns": 2},
-        "languages": ["it"],
-        "questionnaires": ["trust"],
-    }
-)
+SMALL = Settings.model_validate({"languages": ["it"], "questionnaires": ["trust"], **PAIR})
 RESUMABLE = [stage for stage in Stage if stage not in {*BEFORE_DECIDING, Stage.ATTRACT, Stage.GAME, Stage.OVER}]
 
 
-class Until(Rehearsal):
-    """A visitor who is there until a stage, or, where ``joins`` is set, from wherever the session is."""
+class Joining(Rehearsal):
+    """A visitor who goes on from wherever the session is."""
 
-    def __init__(self, app: App, stage: Stage | None, *, joins: bool = False) -> None:
+    def __init__(self, app: App) -> None:
         super().__init__(app, 1)
-        self._until = stage
-        self._began = joins
-
-    def _do_what_comes_next(self) -> None:
-        if self._app.runner.stage is self._until:
-            self._app.quit()
-        else:
-            super()._do_what_comes_next()
+        self._began = True
 
 
 @dataclass(frozen=True)
@@ -92,8 +79,7 @@ def close_in(data: Path, stage: Stage, qtbot: QtBot) -> None:
     """Leave a session behind in this stage by closing the kiosk."""
     with headless(SMALL, data, mode=HALF) as app:
         qtbot.waitUntil(app.window.isExposed)
-        Until(app, stage).run()
-        assert app.runner.stage is stage
+        go_to(app, stage)
     with Recorder(data):
         pass
 
@@ -119,13 +105,16 @@ def test_a_session_goes_on_from_the_start_of_its_stage_to_its_end(
         qtbot.waitUntil(app.window.isExposed)
         app.runner.resume(cut.session, cut.number, cut.past)
         assert app.runner.stage is stage
-        Until(app, None, joins=True).run()
+        if crash:
+            Joining(app).run()
+        else:
+            go_on_to_the_end(app)
     with open_repository(tmp_path) as stored:
         events: list[Event] = stored.story(1)
         plan, seed = stored.plan(1), stored.seed(1)
         [session] = stored.sessions()
     assert session.status is Status.COMPLETED
-    assert session.pairs == 2
+    assert session.pairs == 1
     resumed = next(i for i, event in enumerate(events) if isinstance(event, happened.SessionResumed))
     assert events[resumed + 1] == happened.StageEntered(at_ms=events[resumed].at_ms, stage=stage)
     assert all(one.at_ms <= other.at_ms for one, other in pairwise(events))
@@ -141,13 +130,15 @@ def test_a_game_is_not_gone_on_with(played: Played, tmp_path: Path, qtbot: QtBot
         with pytest.raises(InvalidTransition):
             app.runner.resume(cut.session, cut.number, cut.past)
         assert app.runner.stage is Stage.ATTRACT
-        Rehearsal(app, 2).run()
+        go_to(app, Stage.THANKS)
+        go_on_to_the_end(app)
 
 
 def test_a_session_that_came_to_its_end_is_not_gone_on_with(tmp_path: Path, qtbot: QtBot) -> None:
     with headless(SMALL, tmp_path, mode=HALF) as app:
         qtbot.waitUntil(app.window.isExposed)
-        Rehearsal(app, 1).run()
+        go_to(app, Stage.THANKS)
+        go_on_to_the_end(app)
         cut = read(tmp_path)
         with pytest.raises((InvalidTransition, UserInputError)):
             app.runner.resume(cut.session, cut.number, cut.past)

@@ -11,27 +11,24 @@ from typing import Any
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QGuiApplication, QKeySequence
+from PySide6.QtGui import QKeySequence
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from kiosk.config import Settings
-from kiosk.experiment import events as happened
 from kiosk.experiment.events import WorldEvent
 from kiosk.experiment.experimenter import SALT_BYTES, Action, hash_pin
 from kiosk.experiment.outcomes import Stage
-from kiosk.game import Position
 from kiosk.robots.driver import RobotDriver
 from kiosk.store.database import open_for_reading
 from kiosk.ui.app import App
 from kiosk.ui.experimenter.view_model import AuthorisationStep, CardScreen, NoteScreen, PanelScreen
 from tests.ui.conftest import Booth
 from tests.ui.headless import HALF, headless
+from tests.ui.visiting import PAIR, go_to, wait_until
 
 PIN = "258013"
 LINE = hash_pin(PIN, bytes(SALT_BYTES), cost=10)
-TINY = {"game": {"rows": 1, "columns": 2}, "practice": {"rows": 1, "columns": 2}}
-"""Boards on which the first two cards are a pair."""
 
 
 class Desk(Booth):
@@ -112,50 +109,13 @@ class Desk(Booth):
 
     def wait_until(self, condition: Callable[[], bool]) -> None:
         """Let time pass, and what comes from other threads land, until something is so."""
-        for _ in range(10_000):
-            QGuiApplication.processEvents()
-            if condition():
-                return
-            self.jump()
-        pytest.fail(f"it never came; the stage is {self.stage}")
+        wait_until(self.app, condition)
 
     def go_to(self, stage: Stage) -> None:
         """Bring a visitor to this stage; over is the error screen."""
         if stage is Stage.OVER:
             self.app.runner.pause()
-        while self.stage is not stage:
-            self._go_on()
-
-    def _go_on(self) -> None:
-        runner = self.app.runner
-        match self.stage:
-            case Stage.ATTRACT:
-                runner.start("en")
-            case Stage.CONSENT:
-                for purpose in self.purposes:
-                    runner.dispatch(happened.ConsentPurposeToggled(at_ms=runner.now_ms(), purpose=purpose, ticked=True))
-                runner.dispatch(happened.ConsentSubmitted(at_ms=runner.now_ms()))
-            case Stage.AGE:
-                runner.dispatch(happened.AgeConfirmed(at_ms=runner.now_ms(), adult=True))
-            case Stage.PRACTICE:
-                runner.dispatch(happened.PracticeSkipped(at_ms=runner.now_ms()))
-            case Stage.GAME:
-                self._play()
-            case _:
-                runner.dispatch(happened.ContinuePressed(at_ms=runner.now_ms()))
-
-    @property
-    def purposes(self) -> list[str]:
-        """What can be agreed to."""
-        information = self.app.assigner.study.plans[0].information
-        return [purpose.id for purpose in information.consent.purposes]
-
-    def _play(self) -> None:
-        for column in range(2):
-            self.app.runner.dispatch(
-                happened.CardSelected(at_ms=self.app.runner.now_ms(), position=Position(0, column))
-            )
-        self.wait_until(lambda: self.stage is not Stage.GAME)
+        go_to(self.app, stage)
 
 
 class Witness:
@@ -182,7 +142,7 @@ def make_assigner(qtbot: QtBot, tmp_path: Path) -> Iterator[MakeDesk]:
 
         def make(device: RobotDriver | None = None, data: Path | None = None, **sections: object) -> Desk:
             folder = data or Path(mkdtemp(dir=tmp_path))
-            given = {"experimenter": {"pin_hash": LINE}, "randomisation": {"target_n": {}}, **TINY, **sections}
+            given = {"experimenter": {"pin_hash": LINE}, "randomisation": {"target_n": {}}, **PAIR, **sections}
             stack = built.enter_context(ExitStack())
             condition = None if "randomisation" in sections else "tom"
             settings = Settings.model_validate(given)

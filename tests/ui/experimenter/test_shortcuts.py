@@ -16,7 +16,8 @@ from kiosk.experiment.experimenter import Action, ActionEffect, Authorisation, p
 from kiosk.experiment.outcomes import Stage
 from kiosk.ui.experimenter.view_model import AuthorisationStep
 from tests.robots.recording import RobotFake
-from tests.ui.experimenter.conftest import TINY, Desk, MakeDesk, Witness
+from tests.ui.experimenter.conftest import Desk, MakeDesk, Witness
+from tests.ui.visiting import PAIR
 
 HOTKEYS = tuple(Action(name) for name in Keys.model_fields)
 EMPTY = (Stage.ATTRACT, Stage.OVER)
@@ -68,7 +69,7 @@ def undo(assigner: Desk) -> None:
 
 @pytest.mark.parametrize("stage", Stage, ids=lambda stage: stage.value)
 def test_every_shortcut_in_this_stage_does_what_the_table_says(stage: Stage, make_assigner: MakeDesk) -> None:
-    assigner = make_assigner(RobotFake(), game={} if stage is Stage.GAME else TINY["game"])
+    assigner = make_assigner(RobotFake(), game={} if stage is Stage.GAME else PAIR["game"])
     assigner.wait_until(lambda: assigner.app.embodiments.settled)
     for action in HOTKEYS:
         undo(assigner)
