@@ -424,7 +424,7 @@ def test_the_keys_on_the_screen_come_for_a_touch_and_not_for_a_mouse(booth: Boot
     assert item_centre(booth.item("number-alone")) == place
 
 
-def test_the_helper_makes_room_for_the_keys_of_a_number_on_an_upright_screen(booth: Booth, qtbot: QtBot) -> None:
+def test_an_upright_screen_s_keys_take_the_helper_s_place_and_show_what_is_typed(booth: Booth, qtbot: QtBot) -> None:
     window = booth.app.window
     window.resize(1080, 1920)
     qtbot.waitUntil(lambda: window.contentItem().width() == 1080)
@@ -432,6 +432,9 @@ def test_the_helper_makes_room_for_the_keys_of_a_number_on_an_upright_screen(boo
     assert booth.sees("face")
     booth.click("number-alone")
     assert not booth.sees("face")
+    booth.click("key-2")
+    (shown,) = booth.item("keys-typed").childItems()
+    assert shown.property("text") == booth.item("number-alone").property("text") == "2"
     booth.click("key-done")
     assert booth.sees("face")
 

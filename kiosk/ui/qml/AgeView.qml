@@ -17,7 +17,7 @@ PageFrame {
     readonly property bool upright: width < height
     readonly property bool pictured: upright ? room > 1000 * Theme.unit && Theme.textSize <= 1.15 : accompanied && room > 640 * Theme.unit
     // How large everything in an answer is, on a screen that has the room for it.
-    readonly property real scaled: !pictured ? 1 : upright ? 1.9 : Math.max(1, Math.min(1.65, (room / Theme.unit - 110 - 300 * Theme.textSize) / 190))
+    readonly property real scaled: !pictured ? 1 : upright ? 2.1 : Math.max(1, Math.min(1.65, (room / Theme.unit - 110 - 300 * Theme.textSize) / 190))
 
     component Answer: BigButton {
         id: answer
@@ -89,7 +89,7 @@ PageFrame {
     Column {
         id: page
         // Close to the question that it explains.
-        y: Math.max(0, Math.min(0.7 * Theme.gap, view.room - height))
+        y: told.visible ? Math.max(0, Math.min(0.7 * Theme.gap, view.room - height)) : 0
         width: parent?.width ?? 0
         spacing: 2 * Theme.gap
 
@@ -111,7 +111,7 @@ PageFrame {
             // How high they are at least; large texts need the room themselves.
             readonly property bool airy: Theme.textSize <= 1.15
             // With pictures they take what the page has left.
-            readonly property real filling: view.upright ? Math.min(860, (view.room - told.height - page.spacing) / Theme.unit - 60)
+            readonly property real filling: view.upright ? Math.min(1000, (view.room - told.height - page.spacing) / Theme.unit - 34)
                 : Math.min(760, view.room / Theme.unit - 16)
             readonly property real least: view.pictured ? filling : !abreast ? 260 : view.width < view.height ? (airy ? 560 : 440) : airy ? 400 : 320
             readonly property real tall: Math.max(yes.implicitHeight, no.implicitHeight, least * Theme.unit)

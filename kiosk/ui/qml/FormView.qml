@@ -121,7 +121,8 @@ PageFrame {
 
     // How large the options of such a page are where all stand in two columns, as wide; 0 where they do not fit so.
     readonly property real paired: !calm || upright || alone || mirrored || pairedHeight() > room ? 0
-        : [34, 32, 31, 30, 29].map(Theme.size).find(size => pairs(size)) ?? 0
+        : pairSizes.find(size => pairs(size) && threes(size)) ?? pairSizes.find(size => pairs(size)) ?? 0
+    readonly property list<real> pairSizes: [34, 32, 31, 30, 29].map(Theme.size)
     FontMetrics {
         id: thin
         font.pixelSize: 100
@@ -130,6 +131,12 @@ PageFrame {
         const wide = (column - 2.4 * Theme.gap - 18 * Theme.unit) / 2 - 86 * Theme.unit
         return form.items.every(item => item.kind === "integer"
             || item.kind === "single" && item.options.every(option => thin.advanceWidth(option.text) * size / 100 <= wide))
+    }
+    // Whether three options can begin every list of an odd number.
+    function threes(size: real): bool {
+        const wide = (column - 2.4 * Theme.gap - 36 * Theme.unit) / 3 - 86 * Theme.unit
+        return form.items.every(item => (item.options?.length ?? 0) % 2 === 0 || item.options.length < 5
+            || item.options.slice(0, 3).every(option => thin.advanceWidth(option.text) * size / 100 <= wide))
     }
     function pairedHeight(): real {
         let tall = 0
@@ -238,7 +245,7 @@ PageFrame {
         if ((width - column) / 2 >= wide)
             return Qt.point(width - wide - ((width - column) / 2 - wide) / 2, beside)
         if (Window.height - height >= tall)
-            return Qt.point(upright ? Theme.across((width - column) / 2, wide, width) : (width - wide) / 2, height + Math.max(0, (Window.height - height - tall) / 2 - 14 * Theme.unit))
+            return Qt.point(upright ? Theme.across((width - column) / 2, wide, width) : (width - wide) / 2, height + Math.max(0, (Window.height - height - tall) / 2 - 36 * Theme.unit))
         const free = foot - tall - Theme.gap
         return free >= begin + home.y + home.height ? Qt.point((width - wide) / 2, free) : Qt.point(width - wide, beside)
     }

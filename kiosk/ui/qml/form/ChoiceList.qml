@@ -70,11 +70,16 @@ Flow {
     // a row what is left. So what stands in two rows, or in two lists, begins at the same places.
     property real gridGap: 12 * Theme.unit
     readonly property var gridded: {
-        if (paired > 0)
-            return options.map(() => Math.floor((width - gridGap) / 2))
         const wishes = []
         for (let i = 0; i < buttons.count; i++)
             wishes.push((buttons.itemAt(i) as Choosable)?.implicitWidth ?? 0)
+        if (paired > 0) {
+            // An odd number begins with three in a row, where they fit, so that no place of the last row is empty.
+            const third = Math.floor((width - 2 * gridGap) / 3)
+            const three = wishes.length > 3 && wishes.length % 2 === 1 && wishes.slice(0, 3).every(wish => wish <= third)
+            return wishes.map((_, at) => !three || at > 2 ? Math.floor((width - gridGap) / 2)
+                : at < 2 ? third : Math.floor(width - 2 * gridGap) - 2 * third)
+        }
         // As many rows as they would take side by side, or one less than in columns of their own.
         let most = 1, end = -packed
         for (const wish of wishes) {

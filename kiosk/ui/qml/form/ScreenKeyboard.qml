@@ -46,7 +46,7 @@ Rectangle {
     // Whether they point at their field, at one side of it.
     readonly property bool points: numbers && !flat && (x >= parent.width || x < 0) && aim > y + radius + 30 * Theme.unit && aim < y + height - radius - 30 * Theme.unit
     // How much of their height tells what is asked, where they stand far from their field.
-    readonly property real headed: flat ? 72 * Theme.unit : 0
+    readonly property real headed: flat ? 90 * Theme.unit : 0
 
     // How wide so many keys in a row are in this room, within these units.
     function fitting(wide: real, many: int, least: real, most: real): real {
@@ -140,7 +140,7 @@ Rectangle {
         height: keyboard.headed - keyboard.gap
         Text {
             x: 14 * Theme.unit
-            width: parent.width - 2 * x
+            width: typed.x - 2 * x
             height: parent.height
             verticalAlignment: Text.AlignVCenter
             textFormat: Text.PlainText
@@ -151,6 +151,29 @@ Rectangle {
             elide: Text.ElideRight
             color: Theme.ink
             Accessible.ignored: true
+        }
+        // What is typed, where the eyes are while they look for the keys.
+        Rectangle {
+            id: typed
+            objectName: "keys-typed"
+            x: parent.width - width - 2 * Theme.unit
+            width: others.wish - 4 * Theme.unit
+            height: parent.height
+            radius: Theme.radius
+            color: Theme.white
+            border { color: Theme.sea; width: 3 * Theme.unit }
+            Text {
+                anchors.centerIn: parent
+                width: parent.width - 24 * Theme.unit
+                textFormat: Text.PlainText
+                text: keyboard.field?.text ?? ""
+                font { pixelSize: Theme.size(50); bold: true }
+                fontSizeMode: Text.HorizontalFit
+                minimumPixelSize: Theme.size(24)
+                horizontalAlignment: Text.AlignHCenter
+                color: Theme.ink
+                Accessible.ignored: true
+            }
         }
     }
     Grid {
