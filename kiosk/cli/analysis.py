@@ -15,7 +15,7 @@ from kiosk import UserInputError
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import QTable
 from kiosk.cli.options import data_option, json_option, progress_bar
-from kiosk.cli.terminal import one_line
+from kiosk.cli.terminal import tell_line
 from kiosk.experiment.condition import Condition
 from kiosk.export.layouts import new_folder, write_text
 from kiosk.files import check_writable, write_file
@@ -70,7 +70,7 @@ def calibrate_command(
     click.echo(_estimates_in_words(found, checked, study))
     for file in (out, page):
         if file is not None:
-            click.echo(one_line(f"Written: {file}"))
+            tell_line(f"Written: {file}")
 
 
 def _estimates_in_words(found: Any, checked: Any, study: Any) -> str:
@@ -124,7 +124,7 @@ def plan_new(file: Path, *, as_json: bool) -> None:
     if file.exists():
         raise UserInputError(f"{file} is there already; choose another name")
     write_file(file, analysis("plan").TEMPLATE)
-    click.echo(json.dumps({"plan": str(file)}) if as_json else f"Written: {file}")
+    tell_line(json.dumps({"plan": str(file)}) if as_json else f"Written: {file}")
 
 
 @plan_group.command("check")
@@ -140,11 +140,7 @@ def plan_check(plan: Path, *, as_json: bool) -> None:
         click.echo(json.dumps({"sha256": sha256, "plan": read.model_dump(mode="json"), "levels": levels}))
         return
     families = len({each.family for each in read.hypothesis})
-    click.echo(
-        one_line(
-            f"{plan} is a plan: {len(read.hypothesis)} hypotheses in {families} families, {read.n_per_arm} an arm."
-        )
-    )
+    tell_line(f"{plan} is a plan: {len(read.hypothesis)} hypotheses in {families} families, {read.n_per_arm} an arm.")
     for n, level in read.levels():
         click.echo(f"  at {n} an arm: two-sided p < {level:.5f}")
     click.echo(f"SHA-256 {sha256}")
@@ -201,7 +197,7 @@ def plan_look(plan: Path, data: Path, *, as_json: bool) -> None:
     record_look(data, sha256, per_arm)
     level = [level for n, level in read.levels() if n <= per_arm][-1:]
     told = {"per_arm": per_arm, "level": level[0] if level else None}
-    click.echo(json.dumps(told) if as_json else f"Look recorded at {per_arm} participants an arm.")
+    tell_line(json.dumps(told) if as_json else f"Look recorded at {per_arm} participants an arm.")
 
 
 @plan_group.command("simulate")
@@ -226,7 +222,7 @@ def plan_simulate(
     simulated = list(study.simulate_participants(table, _people(people), rule, cells, seed))
     study.write_dataset(out, simulated, table, rule, f"{read.title} (simulated)")
     told = {"out": str(out), "participants": len(simulated)}
-    click.echo(json.dumps(told) if as_json else f"{len(simulated)} simulated participants are in {out}.")
+    tell_line(json.dumps(told) if as_json else f"{len(simulated)} simulated participants are in {out}.")
 
 
 class Sizes(click.ParamType[tuple[int, ...]]):
@@ -385,7 +381,7 @@ def report_command(
         click.echo(json.dumps(document))
         return
     click.echo(_report_in_words(document))
-    click.echo(one_line(f"Written: {out}"))
+    tell_line(f"Written: {out}")
 
 
 def _analysed(export: Path, plan: Path | None, exclude: Path | None) -> Any:

@@ -18,7 +18,7 @@ from rich.table import Table
 
 from kiosk import StorageError, UserInputError
 from kiosk.cli.options import database_data_option, json_option, progress_bar, sessions_data_option
-from kiosk.cli.terminal import confirm, console, counted, one_line, tell_caution
+from kiosk.cli.terminal import confirm, console, counted, one_line, tell_caution, tell_line
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset as write
 from kiosk.export.layouts import Bids, PsychDs
@@ -79,7 +79,7 @@ def backup_command(data: Path, to: str | None, keep: int, keys: tuple[str, ...],
         with _disk_in_words(), progress_bar("copying", hidden=as_json) as tell:
             copy = copies.back_up(data, into, keep, tell)
         told = {"backup": str(copy), "bytes": copy.stat().st_size, "kept": len(copies.list_backups(into))}
-        click.echo(json.dumps(told) if as_json else f"The copy is {copy}, one of {told['kept']} that are kept there.")
+        tell_line(json.dumps(told) if as_json else f"The copy is {copy}, one of {told['kept']} that are kept there.")
         return
     if to is None:
         raise UserInputError("--encrypt-for is for a copy that is carried away: name the place with --to")
@@ -93,7 +93,7 @@ def backup_command(data: Path, to: str | None, keep: int, keys: tuple[str, ...],
         click.echo(json.dumps(told | {"sha256": carried.sha256, "encrypted": carried.encrypted}))
         return
     how = ", encrypted" if carried.encrypted else ""
-    click.echo(one_line(f"The copy is {carried.file}{how}: {carried.bytes:,} bytes, written and read back alike."))
+    tell_line(f"The copy is {carried.file}{how}: {carried.bytes:,} bytes, written and read back alike.")
     click.echo(f"SHA-256 {carried.sha256}; copies kept there: {carried.kept}.")
 
 
@@ -115,9 +115,7 @@ def browse_command(data: Path, port: int, *, opens: bool) -> None:
             flaws = checking.verify(Path(place), tell)
         if flaws:
             raise UserInputError(f"the database is not as it was written: 'recollect verify --data {data}' says why")
-        click.echo(
-            one_line(f"http://127.0.0.1:{port}/ shows a verified copy of {data}; Ctrl+C ends it and removes the copy.")
-        )
+        tell_line(f"http://127.0.0.1:{port}/ shows a verified copy of {data}; Ctrl+C ends it and removes the copy.")
         serve = ("serve", "--immutable", str(copy), "--host", "127.0.0.1", "--port", str(port))
         command = [sys.executable, "-m", "datasette", *serve, "--setting", "allow_download", "off"]
         # Ctrl+C reaches both; this one waits until the other has ended.
@@ -270,12 +268,12 @@ def merge_command(folders: tuple[Path, ...], out: Path, sites: tuple[tuple[Path,
         named = [asdict(each) | {"folder": str(each.folder)} for each in studies]
         click.echo(json.dumps({"out": str(out), "folders": len(folders), "sessions": sessions, "studies": named}))
         return
-    click.echo(one_line(f"{out} holds {counted(sessions, 'session')} of {counted(len(folders), 'folder')}."))
+    tell_line(f"{out} holds {counted(sessions, 'session')} of {counted(len(folders), 'folder')}.")
     if len({each.sha256 for each in studies}) > 1:
         click.echo("caution: they are of studies that differ; compare them with 'recollect study diff':")
         for each in studies:
             sha256 = each.sha256[:SHORT_SHA] or "unknown"
-            click.echo(one_line(f"  {sha256} {each.title!r}: {counted(each.sessions, 'session')} in {each.folder}"))
+            tell_line(f"  {sha256} {each.title!r}: {counted(each.sessions, 'session')} in {each.folder}")
 
 
 @click.command()
@@ -307,7 +305,7 @@ def export_command(data: Path, out: Path, *, bids: bool, shuffled_ids: bool, as_
     if as_json:
         click.echo(json.dumps({"out": str(out)} | exported.to_json()))
         return
-    click.echo(one_line(f"The data set in {out} holds {counted(exported.participants, 'session')}."))
+    tell_line(f"The data set in {out} holds {counted(exported.participants, 'session')}.")
     if exported.not_shared:
         click.echo(f"Left out, as their visitors did not agree to publishing: {exported.not_shared}.")
     if exported.under_way:

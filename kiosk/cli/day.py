@@ -12,7 +12,7 @@ from statistics import median
 import click
 
 from kiosk.cli.options import json_option, sessions_data_option
-from kiosk.cli.terminal import counted, one_line
+from kiosk.cli.terminal import counted, tell_line
 from kiosk.config import ASSETS
 from kiosk.experiment.experimenter import AuditEvent
 from kiosk.experiment.outcomes import SessionKind, Stage, Status
@@ -77,7 +77,7 @@ def day_command(data: Path, day: datetime | None, out: Path | None, *, with_rehe
         f"{page} is about {counted(len(report.sessions), 'session')} of {chosen}, {completed} of them completed."
     )
     for caution in cautions:
-        click.echo(f"look at: {one_line(caution)}")
+        tell_line(f"look at: {caution}")
 
 
 def day_page(report: DayReport) -> str:

@@ -18,7 +18,7 @@ import click
 from kiosk import UserInputError
 from kiosk.cli.composition import read_settings
 from kiosk.cli.options import json_option, progress_bar, study_option
-from kiosk.cli.terminal import one_line
+from kiosk.cli.terminal import tell_line
 from kiosk.config import VOICE_ENGINES, RobotConfig, Settings, is_path
 from kiosk.experiment.effects import Mood
 from kiosk.experiment.page_stages import result_speech
@@ -86,7 +86,7 @@ def robot_command(
     for step in _tried(device, language, sentence):
         steps.append(step)
         if not as_json:
-            click.echo(f"{'OK' if step.worked else 'FAIL':5}{step.step:22}{step.ms:6} ms  {one_line(step.found)}")
+            tell_line(f"{'OK' if step.worked else 'FAIL':5}{step.step:22}{step.ms:6} ms  {step.found}")
     worked = all(step.worked for step in steps)
     if as_json:
         click.echo(
@@ -111,7 +111,7 @@ def _pretend(port: int | None) -> None:
         while True:
             request = heard.get()
             words = ", ".join(f"{name}={value}" for name, value in request.parameters.items())
-            click.echo(one_line(f"{request.path.removeprefix('/furhat/'):12}{words}"))
+            tell_line(f"{request.path.removeprefix('/furhat/'):12}{words}")
 
 
 def greet(settings: Settings, language: str, sentence: str) -> RobotTrial | None:
@@ -317,7 +317,7 @@ def render_command(
             pack = render_pack(engine, plan.language, texts, folder, tell)
         told[plan.language] = {"folder": str(folder), "clips": len(pack.clips), "sha256": pack.sha256}
         if not as_json:
-            click.echo(one_line(f"{plan.language}: {pack.described} in {folder}"))
+            tell_line(f"{plan.language}: {pack.described} in {folder}")
     if as_json:
         click.echo(json.dumps(told))
 
@@ -338,7 +338,7 @@ def script_command(study: Path | None, language: str, *, as_json: bool) -> None:
         return
     click.echo(f"Read each line as one calm sentence; store it under its name as a WAV file ({language}).\n")
     for name, text in lines.items():
-        click.echo(one_line(f"{name}  {text}"))
+        tell_line(f"{name}  {text}")
 
 
 @voice_group.command("import")
@@ -363,9 +363,7 @@ def import_command(
         made = {"folder": str(out), "clips": len(pack.clips), "missing": missing, "sha256": pack.sha256}
         click.echo(json.dumps(made))
         return
-    click.echo(
-        one_line(f"{pack.described} in {out}; {missing} texts are missing" if missing else f"{pack.described} in {out}")
-    )
+    tell_line(f"{pack.described} in {out}; {missing} texts are missing" if missing else f"{pack.described} in {out}")
 
 
 @voice_group.command("missing")

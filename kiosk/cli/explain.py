@@ -26,7 +26,7 @@ from kiosk.assistance.mentaliser import Hint, HintReason, Mentaliser, TargetRule
 from kiosk.assistance.policy import PRAISE, ActionSpec, FlipInMove, MoveOutcome, QTable, find_action, said_once
 from kiosk.assistance.wording import ReasonedSentences, Wording
 from kiosk.cli.options import json_option, read_catalogue, sessions_data_option, shipped_languages
-from kiosk.cli.terminal import one_line, tell_caution
+from kiosk.cli.terminal import one_line, tell_caution, tell_line
 from kiosk.config import ASSETS, AssistanceConfig, Game, pictures_in
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.replay import DecisionContext
@@ -237,7 +237,7 @@ def explain_command(
     else:
         click.echo("\n".join(map(one_line, _one(moments[0]) if one else _all(moments))))
     if picture is not None:
-        click.echo(one_line(f"The boards are drawn in {picture}."), err=True)
+        tell_line(f"The boards are drawn in {picture}.", err=True)
     if any(moment.differs for moment in moments):
         sys.exit(DIFFERS)
 

@@ -22,6 +22,7 @@ from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import ACTIONS, NO_GATE, ActionSpec, Gate, QTable, State, check_actions, find_action
 from kiosk.cli import evidence
 from kiosk.cli.options import progress_bar
+from kiosk.cli.terminal import tell_line
 from kiosk.config import KNOWN_CONDITIONS, AssistanceConfig
 from kiosk.experiment.condition import Condition, target_rule
 from kiosk.files import check_writable, write_file
@@ -259,7 +260,7 @@ def _leave_checkpoint(learner: Learner, name: str, out: Path) -> None:
         sys.exit(STOPPED)
     beside = out.with_suffix(f".checkpoint{out.suffix}")
     write_file(beside, learner.freeze(name, train_command_line(learner.recipe, name)).to_json())
-    click.echo(
+    tell_line(
         f"recollect: stopped after {learner.episodes:,} of {learner.recipe.episodes:,} episodes; "
         f"what is known so far is a usable policy in {beside}, and {out} is as it was",
         err=True,

@@ -17,7 +17,7 @@ from typing import Never
 import click
 
 from kiosk import DISK_FULL, StorageError, UserInputError, __version__, why
-from kiosk.cli.terminal import HarmlessStream, one_line
+from kiosk.cli.terminal import HarmlessStream, tell_line
 
 DISK_FAILED, BAD_INPUT = 1, 2
 """Exit codes: the disk did not take something, so that the same command may succeed later; the input cannot be used."""
@@ -175,7 +175,7 @@ def main() -> Never:
 
 def _say(*sentences: str) -> None:
     for sentence in sentences:
-        click.echo(f"recollect: {one_line(sentence)}", err=True)
+        tell_line(f"recollect: {sentence}", err=True)
 
 
 def _drop_what_is_not_printed_yet() -> None:

@@ -23,7 +23,7 @@ from kiosk.cli.options import (
     study_option,
 )
 from kiosk.cli.run import supervise_kiosk
-from kiosk.cli.terminal import confirm, one_line
+from kiosk.cli.terminal import confirm, tell_line
 from kiosk.config import Settings
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.preflight import WHAT, CheckResult, Severity
@@ -97,7 +97,7 @@ def open_day_command(
         if as_json:
             click.echo(json.dumps({"step": step.step, "ok": step.ok, "found": step.found}))
         else:
-            click.echo(f"{'OK' if step.ok else 'WARN':6}{step.step:12}{one_line(step.found)}")
+            tell_line(f"{'OK' if step.ok else 'WARN':6}{step.step:12}{step.found}")
 
     for step in _steps(booth, booth.settings, booth.study, to, ask, as_json=as_json):
         tell(step)

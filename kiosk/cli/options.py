@@ -12,7 +12,7 @@ import click
 
 from kiosk import UserInputError
 from kiosk.cli.composition import DATA
-from kiosk.cli.terminal import console, one_line
+from kiosk.cli.terminal import console, tell_line
 from kiosk.places import ASSETS
 
 if TYPE_CHECKING:
@@ -44,9 +44,7 @@ def _stored_data_option(is_there: Callable[[Path], bool]) -> Callable[..., Any]:
             return given
         if is_there(DATA) or not is_there(REHEARSALS):
             return DATA
-        click.echo(
-            one_line(f"Nothing is stored in {DATA} yet, so this is about the rehearsals in {REHEARSALS}."), err=True
-        )
+        tell_line(f"Nothing is stored in {DATA} yet, so this is about the rehearsals in {REHEARSALS}.", err=True)
         return REHEARSALS
 
     return click.option(

@@ -29,7 +29,7 @@ from kiosk.cli.options import (
     robot_port_option,
     study_option,
 )
-from kiosk.cli.terminal import counted, one_line
+from kiosk.cli.terminal import counted, tell_line
 from kiosk.config import NO_ROBOT, STAGES, RobotConfig
 from kiosk.experiment.events import Event
 from kiosk.experiment.outcomes import SessionKind, Stage
@@ -512,6 +512,6 @@ def _tell(played: dict[str, Any], data: Path, shots: Path | None, *, as_json: bo
     if "session" in played:
         line = "Session {session} ({condition}) {status}: {pairs} pairs in {moves} moves, {hints} hints."
         click.echo(line.format(**played))
-        click.echo(one_line(f"Its record is in {data}" + (f", its pictures are in {shots}." if shots else ".")))
+        tell_line(f"Its record is in {data}" + (f", its pictures are in {shots}." if shots else "."))
     else:
         click.echo("The visitor did not take part, so nothing is stored but that they came.")

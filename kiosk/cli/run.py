@@ -15,7 +15,7 @@ import click
 from kiosk import UserInputError, program
 from kiosk.cli.composition import check_pin, read_settings
 from kiosk.cli.options import data_option, robot_host_option, robot_port_option, site_option, study_option
-from kiosk.cli.terminal import counted
+from kiosk.cli.terminal import counted, tell_line
 from kiosk.garbage import no_collections
 from kiosk.supervisor import REFUSED, Supervisor, SupervisorEvent, SupervisorEventKind, Timeouts, guarded
 from kiosk.ui.qt_platform import obstacle
@@ -80,7 +80,7 @@ def run_command(
 
         asked = Opening(data, study, site, robot_host, robot_port, unattended=unattended, window=window)
         told = open_kiosk(asked, beat, opened)
-    click.echo(json.dumps(told) if as_json else f"{counted(told['sessions'], 'session')} recorded in {data}.")
+    tell_line(json.dumps(told) if as_json else f"{counted(told['sessions'], 'session')} recorded in {data}.")
 
 
 @contextmanager

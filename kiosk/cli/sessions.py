@@ -12,7 +12,7 @@ import click
 
 from kiosk import UserInputError
 from kiosk.cli.options import json_option, sessions_data_option
-from kiosk.cli.terminal import console, counted, one_line, tell_caution
+from kiosk.cli.terminal import console, counted, one_line, tell_caution, tell_line
 from kiosk.experiment.outcomes import Disposition, SessionKind, Status
 from kiosk.store.listing import RUNNING, SessionFilter, SessionList, SessionTotals, StoredSession, opened
 from kiosk.units import MS_PER_SECOND, as_minutes
@@ -192,4 +192,4 @@ def events_command(session: int, data: Path, *, as_json: bool) -> None:
         origin = record.pop("origin")
         details = "  ".join(f"{key}={json.dumps(value, ensure_ascii=False)}" for key, value in record.items())
         mark = "<" if origin == "world" else ">"
-        click.echo(one_line(f"{seq:5} {at_ms / MS_PER_SECOND:9.3f} s {mark} {kind:18} {details}"))
+        tell_line(f"{seq:5} {at_ms / MS_PER_SECOND:9.3f} s {mark} {kind:18} {details}")

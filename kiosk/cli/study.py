@@ -18,7 +18,7 @@ from kiosk.assistance.wording import CARD, Catalogue
 from kiosk.cli.guide import add_guide
 from kiosk.cli.main import BAD_INPUT
 from kiosk.cli.options import json_option, set_pin_command
-from kiosk.cli.terminal import console, one_line, tell_caution
+from kiosk.cli.terminal import console, tell_caution, tell_line
 from kiosk.config import NO_ROBOT, Settings, pictures_in
 from kiosk.experiment.items import TextPage
 from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
@@ -127,7 +127,7 @@ def _print_summary(read: StudyConfig, summary: Mapping[str, Any]) -> None:
             table.add_row(key.replace("_", " "), _told(value))
     console().print(table)
     for source in read.sources:
-        click.echo(one_line(_came_from(source)))
+        tell_line(_came_from(source))
     for caution in summary["cautions"]:
         tell_caution(caution)
 
@@ -266,7 +266,7 @@ def study_cards(file: Path, sheet: Path | None, *, names: bool, practice: bool, 
     for warning in warnings:
         tell_caution(warning)
     if sheet is not None:
-        click.echo(one_line(f"The cards are drawn on {sheet}."))
+        tell_line(f"The cards are drawn on {sheet}.")
 
 
 def write_names(settings: Settings, deck: str) -> None:
@@ -283,7 +283,7 @@ def write_names(settings: Settings, deck: str) -> None:
     forms = {language: card_forms(catalogue) for language, catalogue in spoken.items()}
     known = {language: names_in(catalogue, cards) for language, catalogue in spoken.items()}
     write_file(file, names_table(cards, forms, known))
-    click.echo(one_line(f"Fill in the names of the cards in {file}."), err=True)
+    tell_line(f"Fill in the names of the cards in {file}.", err=True)
 
 
 @study.command("new")
@@ -330,10 +330,10 @@ def study_new(
         packages = [str(folder / "packages" / name) for name in chosen.packages]
         click.echo(json.dumps({"study": str(folder / STUDY_FILE), "files": sorted(files), "packages": packages}))
         return
-    click.echo(one_line(f"{len(files)} files were written to {folder}. Read {folder / 'README.md'} first, then:"))
+    tell_line(f"{len(files)} files were written to {folder}. Read {folder / 'README.md'} first, then:")
     for name in chosen.packages:
-        click.echo(one_line(f"  pip install {folder / 'packages' / name}"))
-    click.echo(one_line(f"  recollect rehearse --headless --study {folder / STUDY_FILE}"))
+        tell_line(f"  pip install {folder / 'packages' / name}")
+    tell_line(f"  recollect rehearse --headless --study {folder / STUDY_FILE}")
 
 
 def _ask(what: str, given: str | None, usual: str, *, asks: bool) -> str:
@@ -419,8 +419,8 @@ def study_import(
         click.echo(json.dumps(told))
         return
     items = "1 item" if len(read.items) == 1 else f"{len(read.items)} items"
-    click.echo(one_line(f"{items} written to {out}"))
+    tell_line(f"{items} written to {out}")
     for sentence in left:
-        click.echo(f"not taken: {one_line(sentence)}")
+        tell_line(f"not taken: {sentence}")
     for sentence in unclear:
-        click.echo(one_line(f"to change in {out} before it is used: {sentence}"))
+        tell_line(f"to change in {out} before it is used: {sentence}")

@@ -11,7 +11,7 @@ import click
 from kiosk import UserInputError
 from kiosk.cli.composition import read_settings
 from kiosk.cli.options import json_option
-from kiosk.cli.terminal import one_line
+from kiosk.cli.terminal import one_line, tell_line
 from kiosk.robots.registry import check_robot
 from kiosk.study.comparison import Impact, compare
 from kiosk.study.loader import read_study
@@ -54,13 +54,13 @@ def pack_command(file: Path, out: Path | None, key: Path | None, *, as_json: boo
         told = {"file": str(out), "sha256": package.sha256, "bytes": len(package.content), "files": [*package.files]}
         click.echo(json.dumps(told | {"signature": str(signature) if signature else None}))
         return
-    click.echo(one_line(f"{package.sha256}  {out}"))
+    tell_line(f"{package.sha256}  {out}")
     click.echo(f"{len(package.files)} files of the study's own, {len(package.content):,} bytes.", err=True)
     if signature:
-        click.echo(one_line(f"Its signature is {signature}."), err=True)
+        tell_line(f"Its signature is {signature}.", err=True)
     if study.settings.experimenter.pin_hash:
         local = out.with_suffix(LOCAL_ENDING)
-        click.echo(one_line(f"The PIN is not in it: put [experimenter] into {local} on each kiosk."), err=True)
+        tell_line(f"The PIN is not in it: put [experimenter] into {local} on each kiosk.", err=True)
 
 
 @click.command("diff")

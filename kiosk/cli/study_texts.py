@@ -14,7 +14,7 @@ from rich.table import Table
 from kiosk import UserInputError
 from kiosk.cli.composition import read_settings
 from kiosk.cli.options import json_option
-from kiosk.cli.terminal import console, counted, one_line
+from kiosk.cli.terminal import console, counted, tell_line
 from kiosk.config import Settings, code_of
 from kiosk.robots.registry import check_robot
 from kiosk.study.checks import expected_minutes
@@ -51,7 +51,7 @@ def translations_command(
         _read(settings, Translation(settings, language), read, as_json=as_json)
     elif language and write:
         count = export_texts(Translation(settings, language), write)
-        click.echo(json.dumps({"file": str(write), "texts": count}) if as_json else f"{count} texts are in {write}.")
+        tell_line(json.dumps({"file": str(write), "texts": count}) if as_json else f"{count} texts are in {write}.")
     else:
         codes = [language] if language else list(settings.language_codes[1:])
         _show({code: Translation(settings, code).units() for code in codes}, list_them=bool(language), as_json=as_json)
@@ -64,9 +64,9 @@ def _read(settings: Settings, translation: Translation, file: Path, *, as_json: 
         click.echo(json.dumps({"files": [str(path) for path in written], "left_out": left}))
         return
     for path in written:
-        click.echo(one_line(f"written: {path}"))
+        tell_line(f"written: {path}")
     for sentence in left:
-        click.echo(f"left out: {one_line(sentence)}")
+        tell_line(f"left out: {sentence}")
     if translation.language not in map(code_of, settings.languages):
         click.echo(f'Add "./{translation.language}" to languages in the study file to use it.')
 
@@ -103,7 +103,7 @@ def dossier_command(file: Path, out: Path, *, as_json: bool) -> None:
     study = read_study(read_settings(file))
     check_robot(study.settings)
     pages = write_dossier(study, max(round(expected_minutes(plan)) for plan in study.plans), out)
-    click.echo(json.dumps({"file": str(out), "pages": pages}) if as_json else f"{out} has {counted(pages, 'page')}.")
+    tell_line(json.dumps({"file": str(out), "pages": pages}) if as_json else f"{out} has {counted(pages, 'page')}.")
 
 
 @click.command("preview")

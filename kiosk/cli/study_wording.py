@@ -15,7 +15,7 @@ from kiosk import UserInputError
 from kiosk.assistance.claims import CLAIM_PHRASES
 from kiosk.cli.composition import read_settings
 from kiosk.cli.options import json_option, progress_bar
-from kiosk.cli.terminal import console, drop_typed_ahead, one_line
+from kiosk.cli.terminal import console, drop_typed_ahead, tell_line
 from kiosk.config import Settings, code_of
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.study.loader import read_study
@@ -94,8 +94,8 @@ def draft_command(
     if as_json:
         click.echo(json.dumps({"folder": str(place), "language": plan.language, "wordings": total, "sound": sound}))
         return
-    click.echo(one_line(f"{total} wordings of {len(draft.messages)} messages are in {place}; {sound} pass the checks."))
-    click.echo(one_line(f"Next: recollect study wording review {file}{_option('language', language)}"))
+    tell_line(f"{total} wordings of {len(draft.messages)} messages are in {place}; {sound} pass the checks.")
+    tell_line(f"Next: recollect study wording review {file}{_option('language', language)}")
 
 
 @wording.command("review")
@@ -127,7 +127,7 @@ def review_command(
     # The study's cards may have changed since, and the file is open to editors.
     failed = draft.check(_checker(plan))
     for sentence in failed:
-        click.echo(f"left, though it was taken: {one_line(sentence)}", err=True)
+        tell_line(f"left, though it was taken: {sentence}", err=True)
     _decide(draft, State.TAKEN, take)
     _decide(draft, State.LEFT, leave)
     if not (take or leave or only_list or as_json):
@@ -142,7 +142,7 @@ def review_command(
     counts = {state: len(draft.of_state(state)) for state in State}
     click.echo(f"{counts[State.TAKEN]} taken, {counts[State.LEFT]} left, {counts[State.OPEN]} undecided.")
     if not counts[State.OPEN]:
-        click.echo(one_line(f'Next: recollect study wording sign {file} --name "Your Name"'))
+        tell_line(f'Next: recollect study wording sign {file} --name "Your Name"')
 
 
 @wording.command("sign")
@@ -167,11 +167,11 @@ def sign_command(file: Path, folder: str, name: str, *, as_json: bool) -> None:
     if as_json:
         click.echo(json.dumps({"folder": str(place), "name": signed.name, "sha256": signed.sha256}))
         return
-    click.echo(one_line(f"{place} is signed by {signed.name}: {signed.sha256}"))
+    tell_line(f"{place} is signed by {signed.name}: {signed.sha256}")
     if not settings.assistance.wording:
-        click.echo(one_line(f"To use it, put this into {file}:"))
+        tell_line(f"To use it, put this into {file}:")
         click.echo("[assistance]")
-        click.echo(one_line(f'wording = "./{folder}"'))
+        tell_line(f'wording = "./{folder}"')
 
 
 def _read(file: Path, language: str | None) -> tuple[Settings, SessionConfig]:

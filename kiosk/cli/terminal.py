@@ -35,9 +35,14 @@ def counted(number: int, one: str) -> str:
     return f"{number:,} {one}" if number == 1 else f"{number:,} {one}s"
 
 
+def tell_line(text: str, *, err: bool = False) -> None:
+    """Print a text on one line, whatever it quotes of a study, a record or a path."""
+    click.echo(one_line(text), err=err)
+
+
 def tell_caution(what: object, *, err: bool = False) -> None:
     """Print a caution on one line, whatever it quotes of a study or a record."""
-    click.echo(f"caution: {one_line(str(what))}", err=err)
+    tell_line(f"caution: {what}", err=err)
 
 
 def confirm(question: str, *, default: bool = False) -> bool:
