@@ -53,7 +53,9 @@ Item {
     readonly property real addable: alone || beside ? 0 : 32 * Theme.unit
     readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : questionHeight > 0 ? Theme.textSize > 1 ? 12 : 18 : airy ? 22 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
-    readonly property real usualMargin: alone ? 0 : own ? rowMargin : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : questionHeight > 0 ? 12 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
+    readonly property real usualMargin: alone ? 0 : own ? Math.max(10 * Theme.unit, rowMargin - taken / 2) : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : questionHeight > 0 ? 12 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
+    // A word that the item is missed takes that of the margins of its row: rows stay where they are.
+    readonly property real taken: flank ? Math.max(0, told.height - rowHeight) : 0
     // Letters have some air above them already; what stands below them does not.
     readonly property real raised: alone || beside || inline || dense ? 0 : 4 * Theme.unit
     readonly property var ways: ({

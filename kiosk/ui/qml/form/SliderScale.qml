@@ -194,17 +194,24 @@ Item {
                 rotation: modelData < 0 ? 180 : 0
                 Rectangle {
                     y: (arrow.height - height) / 2
-                    width: arrow.width - 2 * Theme.unit
+                    width: arrow.width - Theme.unit
                     height: 3 * Theme.unit
                     color: Theme.sea
                 }
-                Drawing {
-                    x: arrow.width - width
-                    y: (arrow.height - height) / 2
-                    scale: 1.2 * Theme.unit
-                    thick: 2.4
-                    ink: Theme.sea
-                    path: "M15 5 L22 12 L15 19"
+                // Its head is no drawing: those would be seen where the page is scrolled out of sight.
+                Repeater {
+                    model: [-45, 45]
+                    Rectangle {
+                        required property int modelData
+                        x: arrow.width - width
+                        y: (arrow.height - height) / 2
+                        width: 15 * Theme.unit
+                        height: 3 * Theme.unit
+                        radius: height / 2
+                        rotation: modelData
+                        transformOrigin: Item.Right
+                        color: Theme.sea
+                    }
                 }
             }
         }
