@@ -18,10 +18,25 @@ FocusScope {
     // The lab stands above everything, if it says who it is.
     readonly property real head: lab.visible ? lab.height + Theme.gap : 0
     readonly property int columns: Math.ceil(attract.layout.length / 2)
+    readonly property real between: (ample ? 2 : 1.5) * Theme.gap
     readonly property int rows: Math.ceil(attract.layout.length / columns)
     // The words take what they need; the cards have the rest.
     readonly property real cardSize: Math.max(60 * Theme.unit,
-        Math.min(width / (1.12 * columns + 0.7), (height - head - words.height - 5 * Theme.gap) / (1.12 * rows)))
+        Math.min(widest, (height - head - words.height - 5 * Theme.gap) / (1.12 * rows)))
+    readonly property bool upright: width < height
+    // An upright page has room for larger words, and more of it between them.
+    readonly property bool ample: upright && Theme.textSize <= 1.15
+    readonly property real widest: width / (1.12 * columns + (upright ? 0.42 : 0.7))
+    // The buttons are as wide as each other and end with the cards, where their words fit.
+    readonly property bool even: several && attract.ways.every(way => letters.advanceWidth(way.start) + 48 * Theme.unit <= (upright ? 1 : 0.9) * share(widest))
+    function share(size: real): real {
+        const count = Math.max(1, attract.ways.length)
+        return Math.min(460 * Theme.unit, Math.floor((size * (1.12 * columns - 0.15) - (count - 1) * starts.columnSpacing) / count))
+    }
+    FontMetrics {
+        id: letters
+        font { pixelSize: Theme.size(54); bold: true }
+    }
     // A card was turned, in the middle of this item; the helper looks at it.
     signal looked(place: point)
     readonly property bool several: attract.ways.length > 1
@@ -46,8 +61,9 @@ FocusScope {
             most: view.width - 4 * Theme.gap
             words: way.modelData.start
             font.pixelSize: Theme.size(54)
-            horizontalPadding: (Theme.textSize > 1 ? 44 : 68) * Theme.unit
-            verticalPadding: 32 * Theme.unit
+            width: view.even ? Math.max(implicitWidth, view.share(view.cardSize)) : Math.min(implicitWidth, most)
+            horizontalPadding: (view.even ? 24 : Theme.textSize > 1 ? 44 : 68) * Theme.unit
+            verticalPadding: (view.ample ? 42 : 32) * Theme.unit
             focus: true
             Accessible.description: way.modelData.name
             Keys.onLeftPressed: nextItemInFocusChain(false).forceActiveFocus(Qt.BacktabFocusReason)
@@ -59,7 +75,7 @@ FocusScope {
             anchors { horizontalCenter: start.horizontalCenter; top: start.bottom; topMargin: 0.4 * Theme.gap }
             visible: view.several
             text: way.modelData.name
-            font.pixelSize: Theme.small
+            font.pixelSize: view.ample ? Theme.body : Theme.small
             color: Theme.faintInk
         }
     }
@@ -110,7 +126,7 @@ FocusScope {
     Item {
         id: cards
         readonly property real pitch: view.cardSize * 1.12
-        anchors { horizontalCenter: parent.horizontalCenter; bottom: words.top; bottomMargin: 1.5 * Theme.gap }
+        anchors { horizontalCenter: parent.horizontalCenter; bottom: words.top; bottomMargin: view.between }
         width: pitch * view.columns
         height: pitch * view.rows
         Repeater {
@@ -159,8 +175,8 @@ FocusScope {
     }
     Column {
         id: words
-        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: (view.height - view.head - height - cards.height - 1.5 * Theme.gap) / (view.width < view.height ? 8 : 2) }
-        spacing: Theme.gap
+        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: (view.height - view.head - height - cards.height - view.between) / 2 }
+        spacing: (view.ample ? 1.5 : 1) * Theme.gap
 
         Line {
             anchors.horizontalCenter: parent.horizontalCenter
@@ -174,7 +190,7 @@ FocusScope {
             room: view.width - 4 * Theme.gap
             visible: !view.accompanied
             text: view.attract.line
-            font.pixelSize: Theme.size(44)
+            font.pixelSize: Theme.size(view.ample ? 50 : 44)
             color: Theme.ink
         }
         Line {
@@ -184,7 +200,7 @@ FocusScope {
             room: view.width - 4 * Theme.gap
             bottomPadding: Theme.gap
             text: view.attract.promise
-            font.pixelSize: Theme.size(34)
+            font.pixelSize: Theme.size(view.ample ? 38 : 34)
             color: Theme.faintInk
         }
         Grid {
@@ -204,8 +220,8 @@ FocusScope {
                 return sum
             }
             readonly property int fit: Math.max(1, Math.floor((view.width - 2 * Theme.gap) / Math.max(1, widest)))
-            columns: wish <= view.width - 2 * Theme.gap ? ways.count : Math.ceil(ways.count / Math.ceil(ways.count / fit))
-            columnSpacing: (Theme.textSize > 1 ? 1 : 1.5) * Theme.gap
+            columns: view.even || wish <= view.width - 2 * Theme.gap ? ways.count : Math.ceil(ways.count / Math.ceil(ways.count / fit))
+            columnSpacing: (Theme.textSize > 1 || view.upright ? 1 : 1.5) * Theme.gap
             rowSpacing: 0.7 * Theme.gap
             horizontalItemAlignment: Grid.AlignHCenter
             Repeater {

@@ -141,7 +141,7 @@ Window {
               : unwatched ? root.room - corner.height - Theme.gap : root.room * upright
         // Board and assistant stand close together: the board takes what its cards need, at least half of the screen.
         readonly property real upright: !root.speaks ? (root.texts > 1.15 && root.kiosk.screen !== "form" ? 0.84 : 0.78)
-              : attractView.visible ? (root.texts > 1.3 ? 0.76 : Math.max(0.57, 0.57 + 0.25 * (root.texts - 1)))
+              : attractView.visible ? (root.texts > 1.3 ? 0.76 : Math.max(helper.says ? 0.57 : 0.64, 0.57 + 0.25 * (root.texts - 1)))
               // Its boards keep their distance to the buttons.
               : root.kiosk.screen === "introduction" && root.texts <= 1.15 ? 0.66
               : !boardPage.visible ? 0.64
@@ -153,6 +153,8 @@ Window {
         AttractView {
             id: attractView
             anchors.fill: parent
+            // Its words may stand a little lower, beside the room above the helper's ears.
+            anchors.bottomMargin: !root.wide && root.avatar.present && !helper.says && root.texts <= 1.15 ? -0.045 * root.room : 0
             visible: root.kiosk.screen === "attract"
             focus: visible && root.kiosk.bare
             attract: root.attract
@@ -351,7 +353,7 @@ Window {
         rests: root.kiosk.paused
         waits: root.kiosk.asks !== "" || root.kiosk.asksStillThere
         // Large sentences need the room.
-        share: root.wide ? (attractView.visible ? 0.6 : 0.52) : root.texts <= 1.15 ? (boardPage.visible ? (root.texts <= 1 ? 0.77 : 0.68) : attractView.visible ? 0.88 : root.kiosk.screen === "introduction" ? 0.68 : 0.72) : 0.64
+        share: root.wide ? (attractView.visible ? 0.6 : 0.52) : root.texts <= 1.15 ? (boardPage.visible ? (root.texts <= 1 ? 0.77 : 0.68) : attractView.visible ? (says ? 0.88 : 0.98) : root.kiosk.screen === "introduction" ? 0.68 : 0.72) : 0.64
         broad: !root.wide
         calls: root.accompanied && attractView.visible
         grows: reach > 0
