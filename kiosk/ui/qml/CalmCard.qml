@@ -20,6 +20,10 @@ FocusScope {
     property point middle: Qt.point(width / 2, height / 2)
     // Where the face of the one who asks begins, below the card, which then is what it says; 0 where there is no face.
     property real speaker: 0
+    // Where the middle of that face is, where it is beside the card; 0 where it is not.
+    property real beside: 0
+    property bool atLeft: false
+    readonly property bool large: speaker > 0 || beside > 0 && Theme.textSize <= 1.15
     readonly property real tail: speaker > 0 ? 34 * Theme.unit : 0
     // How high it is at least.
     property real least: 0
@@ -36,7 +40,7 @@ FocusScope {
     readonly property int secondsLeft: Math.ceil(msLeft / 1000)
     // Where nothing moves, the ring stays whole.
     readonly property int stepsLeft: Theme.motion === 0 ? steps : Math.ceil(steps * msLeft / Math.max(1, lasts))
-    readonly property real badge: (lasts > 0 ? (speaker > 0 ? 180 : 150) : speaker > 0 ? 150 : 112) * Theme.unit
+    readonly property real badge: (lasts > 0 ? (speaker > 0 ? 180 : 150) : large ? 150 : 112) * Theme.unit
     onLastsChanged: {
         emptying.stop()
         msLeft = lasts
@@ -68,7 +72,7 @@ FocusScope {
         x: Math.round(calm.middle.x - width / 2)
         y: Math.round(calm.speaker > 0 ? Math.max(2 * Theme.gap, calm.speaker - height - calm.tail - 0.5 * Theme.gap) : calm.middle.y - height / 2)
         // As wide as what the helper says below a board.
-        width: calm.speaker > 0 ? 0.88 * parent.width : Math.min(parent.width - 4 * Theme.gap, 900 * Theme.unit)
+        width: calm.speaker > 0 ? 0.88 * parent.width : calm.beside > 0 ? 1100 * Theme.unit : Math.min(parent.width - 4 * Theme.gap, 900 * Theme.unit)
         height: Math.max(calm.least, content.height + 5 * Theme.gap)
         radius: Theme.radius
         color: Theme.white
@@ -142,7 +146,7 @@ FocusScope {
                 Drawing {
                     anchors.centerIn: parent
                     visible: calm.lasts === 0
-                    scale: (calm.speaker > 0 ? 3.4 : 2.6) * Theme.unit
+                    scale: (calm.large ? 3.4 : 2.6) * Theme.unit
                     path: calm.sign
                     ink: Theme.ink
                     thick: calm.thick
@@ -158,23 +162,35 @@ FocusScope {
                 horizontalAlignment: Text.AlignHCenter
             }
             Balanced {
-                width: parent.width
+                anchors.horizontalCenter: parent.horizontalCenter
+                // Its lines do not reach as far as the buttons.
+                width: parent.width - (calm.code !== "" && calm.speaker > 0 && Theme.textSize <= 1.15 ? 4 : 0) * Theme.gap
                 visible: text !== ""
                 text: calm.line
                 font.pixelSize: calm.lineSize
                 color: Theme.faintInk
                 horizontalAlignment: Text.AlignHCenter
             }
-            PlainText {
-                objectName: "noted"
+            // As if on a slip of paper: it is to be taken along.
+            Rectangle {
+                visible: calm.code !== ""
                 width: parent.width
-                visible: text !== ""
-                text: calm.code
-                font { pixelSize: Theme.figure; bold: true; letterSpacing: 4 * Theme.unit }
-                fontSizeMode: Text.HorizontalFit
-                minimumPixelSize: Theme.body
-                color: Theme.sea
-                horizontalAlignment: Text.AlignHCenter
+                height: noted.height + 0.8 * Theme.gap
+                radius: Theme.radius
+                color: Theme.shelf
+                border { color: Theme.edge; width: 3 * Theme.unit }
+                PlainText {
+                    id: noted
+                    objectName: "noted"
+                    anchors { left: parent.left; right: parent.right; margins: Theme.gap; verticalCenter: parent.verticalCenter }
+                    visible: text !== ""
+                    text: calm.code
+                    font { pixelSize: Theme.figure; bold: true; letterSpacing: 4 * Theme.unit }
+                    fontSizeMode: Text.HorizontalFit
+                    minimumPixelSize: Theme.body
+                    color: Theme.sea
+                    horizontalAlignment: Text.AlignHCenter
+                }
             }
             Flow {
                 id: flow
@@ -214,6 +230,12 @@ FocusScope {
                 }
             }
         }
+    }
+    SpeechTail {
+        visible: calm.beside > 0
+        rotation: calm.atLeft ? 90 : -90
+        x: calm.atLeft ? card.x - 14 * Theme.unit - width / 2 : card.x + card.width + 14 * Theme.unit - width / 2
+        y: Math.max(card.y + 80 * Theme.unit, Math.min(calm.beside, card.y + card.height - 80 * Theme.unit)) - height / 2
     }
     SpeechTail {
         visible: calm.tail > 0

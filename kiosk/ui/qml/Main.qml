@@ -59,6 +59,8 @@ Window {
     readonly property bool asking: avatar.present && !avatar.away && !kiosk.paused && !kiosk.waits && (kiosk.asksStillThere || kiosk.asks === "stop")
     // Where its face begins below such a question on an upright screen, and below the word about a pause; 0 beside them.
     readonly property real faceBelow: !wide && avatar.present && !avatar.away ? helper.y + helper.faceTop : 0
+    // And where its middle is beside them on a wide screen.
+    readonly property real faceBeside: accompanied && !avatar.away ? helper.y + helper.faceMiddle : 0
     readonly property real said: !whole ? 0 : speaks ? 176 * Math.max(1, texts) * Theme.unit : corner.visible ? 84 * Theme.unit : 0
     readonly property real room: height - (replay === null ? 0 : controls.height) - memory.height
 
@@ -319,7 +321,9 @@ Window {
             middle: root.whole || !helper.visible ? Qt.point(root.width / 2, root.room / 2)
                   : root.wide ? stage.middle : Qt.point(root.width / 2, 0.36 * root.room)
             speaker: root.faceBelow
-            least: (root.faceBelow > 0 ? 625 : 500) * Theme.unit
+            beside: root.faceBeside
+            atLeft: root.boardOnRight
+            least: (large ? 625 : 500) * Theme.unit
             breathes: true
             sign: "M8 4 V20 M16 4 V20"
             thick: 4.7
@@ -358,7 +362,7 @@ Window {
         calls: root.accompanied && attractView.visible
         grows: reach > 0
         leads: root.asking || !root.speaks
-        hushed: root.asking && !root.wide
+        hushed: root.asking && (!root.wide || !root.kiosk.asksStillThere)
         readonly property bool done: boardPage.visible && boardPage.view.last.length > 0 && !root.board.practice
         // How a move goes on, and that it made a pair, is said in the practice; in the game a line under the cards says it.
         readonly property bool practises: boardPage.visible && root.board.practice
@@ -441,11 +445,13 @@ Window {
             focus: true
             middle: root.asking && root.wide ? stage.middle : Qt.point(root.width / 2, root.room / 2)
             speaker: root.faceBelow
+            beside: root.faceBeside
+            atLeft: root.boardOnRight
             // A door, and the way out of it.
             sign: "M13 4 H5 V20 H13 M10 12 H20 M16 8 L20 12 L16 16"
             title: root.words["stop-title"]
             line: root.kiosk.stopLine
-            lineSize: root.wide ? Theme.body : Theme.size(36)
+            lineSize: large ? Theme.size(36) : Theme.body
             code: root.kiosk.stopCode
             choices: [{ name: "stop-no", words: root.words["stop-no"] }, { name: "stop-yes", words: root.words["stop-yes"], quiet: true }]
             onChosen: name => name === "stop-yes" ? root.kiosk.stop() : root.kiosk.ask("")

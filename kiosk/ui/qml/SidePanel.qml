@@ -33,6 +33,7 @@ Item {
     property bool grows: false
     // Whether it speaks to those who pass.
     property bool calls: false
+    readonly property real faceMiddle: face.y + 0.56 * face.height
     // A sentence that was read long ago, and is not shown any more.
     property string stale: ""
 
