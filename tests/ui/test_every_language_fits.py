@@ -512,6 +512,14 @@ def test_an_option_is_high_enough_for_a_finger(kiosk: tuple[Window, StudyConfig]
     assert min(option.height() for option in options) >= 76
 
 
+@pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)
+def test_start_buttons_are_as_wide_as_each_other(kiosk: tuple[Window, StudyConfig], layout: Layout) -> None:
+    assert list(shown_in(kiosk, layout, ("attract",))) == ["attract"]
+    starts = [item for item in controls(kiosk[0].shown.contentItem()) if item.objectName().startswith("start-")]
+    assert len(starts) == len(SHIPPED)
+    assert len({start.width() for start in starts}) == 1
+
+
 def said(screen: str, plan: SessionConfig) -> str:
     """Return the longest that is said on a screen."""
     catalogue = plan.catalogue
