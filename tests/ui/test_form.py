@@ -424,6 +424,18 @@ def test_the_keys_on_the_screen_come_for_a_touch_and_not_for_a_mouse(booth: Boot
     assert item_centre(booth.item("number-alone")) == place
 
 
+def test_five_options_of_a_wide_page_leave_no_empty_place(booth: Booth, qtbot: QtBot) -> None:
+    window = booth.app.window
+    window.resize(1920, 1080)
+    qtbot.waitUntil(lambda: window.contentItem().width() == 1920)
+    ask(booth, *Questionnaire.read(ASSETS / "questionnaires" / "about-you.toml").items)
+    options = [booth.item(f"option-robots-{name}") for name in ("none", "stories", "fairs", "owns", "works")]
+    assert [option.y() == options[0].y() for option in options] == [True] * 3 + [False] * 2
+    assert {round(last.x() + last.width()) for last in (options[2], options[4])} == {
+        round(options[0].parentItem().width())
+    }
+
+
 def test_an_upright_screen_s_keys_take_the_helper_s_place_and_show_what_is_typed(booth: Booth, qtbot: QtBot) -> None:
     window = booth.app.window
     window.resize(1080, 1920)
