@@ -19,23 +19,26 @@ from tests.robots.recording import RobotFake
 from tests.ui.experimenter.conftest import Desk, MakeDesk, Witness
 from tests.ui.visiting import PAIR
 
-HOTKEYS = tuple(Action(name) for name in Keys.model_fields)
+ENDING = (Action.ABORT, Action.NEXT)
+HOTKEYS = tuple(sorted((Action(name) for name in Keys.model_fields), key=lambda action: action in ENDING))
+"""Those that end a session come last: for the next one a visitor has to come all the way again."""
 EMPTY = (Stage.ATTRACT, Stage.OVER)
 
 
 def say_something(assigner: Desk) -> None:
     """Let a sentence be said to its end, if one is said in this stage."""
-    if assigner.stage is Stage.GAME:
-        # A hint comes only to a player who finds nothing.
-        board = assigner.app.screens.board
-        while not assigner.app.runner.accepts(happened.RepeatRequested(at_ms=assigner.app.runner.now_ms())):
-            for place in board.closed[:1] if board.accepts_taps else ():
-                assigner.app.runner.dispatch(happened.CardSelected(at_ms=assigner.app.runner.now_ms(), position=place))
-            assigner.jump()
-    elif permission(Action.REPEAT, assigner.stage).effect is ActionEffect.NOW:
-        assigner.wait_until(
-            lambda: assigner.app.runner.accepts(happened.RepeatRequested(at_ms=assigner.app.runner.now_ms()))
-        )
+    app, board = assigner.app, assigner.app.screens.board
+
+    def was_said() -> bool:
+        if app.runner.accepts(happened.RepeatRequested(at_ms=app.runner.now_ms())):
+            return True
+        if assigner.stage is Stage.GAME and board.accepts_taps:
+            # A hint comes only to a player who finds nothing.
+            app.runner.dispatch(happened.CardSelected(at_ms=app.runner.now_ms(), position=board.closed[0]))
+        return False
+
+    if permission(Action.REPEAT, assigner.stage).effect is ActionEffect.NOW:
+        assigner.wait_until(was_said)
 
 
 def done(assigner: Desk, action: Action, witness: Witness) -> bool:
