@@ -7,12 +7,15 @@ import os
 import shutil
 import signal
 import sys
+from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pytest
 from hypothesis import HealthCheck, settings
+
+from tests.forked import LoadedProgram
 
 # A machine that is slow or has company must not fail a test.
 settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -109,6 +112,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         if _is_slow(path):
             item.add_marker(pytest.mark.slow)
     items.sort(key=lambda item: LONGEST.index(paths[item]) if paths[item] in LONGEST else len(LONGEST))
+
+
+@pytest.fixture(scope="session")
+def loaded_program() -> Iterator[LoadedProgram]:
+    """Provide the program, loaded once for all files of this process that run commands."""
+    with LoadedProgram() as program:
+        yield program
 
 
 def pytest_collection_finish() -> None:

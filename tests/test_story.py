@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -20,16 +20,15 @@ RESULT = {"session", "status", "condition", "embodiment", "flips", "moves", "pai
 
 
 @pytest.fixture(scope="module")
-def recollect() -> Iterator[Recollect]:
+def recollect(loaded_program: LoadedProgram) -> Recollect:
     """Run a command, which must end well and without a word on standard error; returns what it prints."""
-    with LoadedProgram() as program:
 
-        def run(*arguments: str) -> str:
-            done = program.run(arguments, story.FILE.parent, os.environ)
-            assert (done.returncode, done.stderr) == (0, ""), arguments
-            return done.stdout
+    def run(*arguments: str) -> str:
+        done = loaded_program.run(arguments, story.FILE.parent, os.environ)
+        assert (done.returncode, done.stderr) == (0, ""), arguments
+        return done.stdout
 
-        yield run
+    return run
 
 
 def test_the_golden_story_is_told_again_to_the_byte(recollect: Recollect) -> None:

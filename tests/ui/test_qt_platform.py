@@ -7,7 +7,7 @@ import os
 import socket
 import subprocess
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from ctypes.util import find_library
 from pathlib import Path
 
@@ -42,14 +42,13 @@ Run = Callable[..., subprocess.CompletedProcess[str]]
 
 
 @pytest.fixture(scope="module")
-def run() -> Iterator[Run]:
-    """Provide what runs the program where this is the screen."""
-    with LoadedProgram() as loaded:
+def run(loaded_program: LoadedProgram) -> Run:
+    """Return what runs the program where this is the screen."""
 
-        def run(*arguments: str, **screen: str) -> subprocess.CompletedProcess[str]:
-            return loaded.run(arguments, ROOT, environment(**screen))
+    def run(*arguments: str, **screen: str) -> subprocess.CompletedProcess[str]:
+        return loaded_program.run(arguments, ROOT, environment(**screen))
 
-        yield run
+    return run
 
 
 def lacks(*missing: str) -> type[ctypes.CDLL]:

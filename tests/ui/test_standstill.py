@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -22,20 +22,33 @@ ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "NOT
     "QT_QPA_PLATFORM": "offscreen"
 }
 STUCK = "from runpy import run_module\nrun_module('tests.ui.stuck_kiosk', run_name='__main__')\n"
+ASKED_TO_END = """
+import os, signal, time
+said, process = os.readlink("/proc/self/fd/2"), os.getpid()
+if os.fork() == 0:
+    while os.getppid() == process:
+        if "stuck" in open(said).read():
+            os.kill(process, signal.SIGTERM)
+            break
+        time.sleep(0.02)
+    os._exit(0)
+"""
+"""What asks the program to end once it is stuck."""
 
 Rehearse = Callable[..., subprocess.CompletedProcess[str]]
 
 
 @pytest.fixture(scope="module")
-def rehearse() -> Iterator[Rehearse]:
-    """Provide what runs a rehearsal in which this is wrong with the first card."""
-    with LoadedProgram() as loaded:
+def rehearse(loaded_program: LoadedProgram) -> Rehearse:
+    """Return what runs a rehearsal in which this is wrong with the first card."""
 
-        def rehearse(data: Path, wrong: str) -> subprocess.CompletedProcess[str]:
-            arguments = (wrong, "rehearse", "--headless", "--data", str(data))
-            return loaded.run(arguments, ROOT, ENVIRONMENT, program=STUCK)
+    def rehearse(data: Path, *wrong: str, first: str = "") -> subprocess.CompletedProcess[str]:
+        study = data / "study.toml"
+        study.write_text('stages = ["game"]\n[game]\nrows = 1\ncolumns = 2\n')
+        arguments = (*wrong, "rehearse", "--headless", "--study", str(study), "--data", str(data / "data"))
+        return loaded_program.run(arguments, ROOT, ENVIRONMENT, program=first + STUCK)
 
-        yield rehearse
+    return rehearse
 
 
 def test_a_fault_ends_the_rehearsal_with_its_name_and_place(rehearse: Rehearse, tmp_path: Path) -> None:
@@ -57,22 +70,12 @@ def test_an_interface_that_stands_still_ends_the_rehearsal_in_words(
 
 
 @pytest.mark.parametrize("wrong", ["with lock", "without lock"])
-def test_an_interface_that_stands_still_ends_when_it_is_asked_to(tmp_path: Path, wrong: str) -> None:
-    command = [sys.executable, "-m", "tests.ui.stuck_kiosk", wrong, "--slowly"]
-    with subprocess.Popen(
-        [*command, "rehearse", "--headless", "--data", str(tmp_path)],
-        env=ENVIRONMENT,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    ) as process:
-        assert process.stderr is not None
-        while "stuck" not in process.stderr.readline():
-            assert process.poll() is None
-        process.terminate()
-        _, said = process.communicate()
-    assert process.returncode != 0
-    assert "it was asked to end and did not, so it was ended" in said
+def test_an_interface_that_stands_still_ends_when_it_is_asked_to(
+    rehearse: Rehearse, tmp_path: Path, wrong: str
+) -> None:
+    ended = rehearse(tmp_path, wrong, "--slowly", first=ASKED_TO_END)
+    assert ended.returncode != 0
+    assert "it was asked to end and did not, so it was ended" in ended.stderr
 
 
 def test_a_fault_in_the_window_ends_the_rehearsal_that_is_under_way(
