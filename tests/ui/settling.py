@@ -3,6 +3,7 @@
     python -m tests.ui.settling             # every page, in every text size and window
     python -m tests.ui.settling --every 24  # every page, in one window and every 24th text size
     python -m tests.ui.settling --only "3 likert, latin"
+    python -m tests.ui.settling --every 24 --also "3 likert, latin"
 
 Qt is asked to lay out and never to paint, which takes most of the time. A page that does not settle would keep this
 process busy for ever, so the process ends itself with exit code 3 and names the page on the error stream.
@@ -265,15 +266,22 @@ def main(arguments: list[str]) -> int:
         "--every", type=int, default=0, help="lay out each page in one window only, and in every so many-th text size"
     )
     parser.add_argument("--only", default="", help="lay out only those whose name contains this")
+    parser.add_argument(
+        "--also", action="append", default=[], help="lay out those whose name contains this in every text size as well"
+    )
     options = parser.parse_args(arguments)
     bench, every_page, laid_out, most = Bench(), list(pages()), 0, 0
     # One window after another: a change of the window lays out much that does not belong to the page.
     for place, window in enumerate(WINDOWS):
         for number, (page, screen, fill) in enumerate(every_page):
-            if options.every and number % len(WINDOWS) != place:
-                continue
-            sizes = TEXT_SIZES[number % options.every :: options.every] if options.every else TEXT_SIZES
-            wanted = {told: size for size in sizes if options.only in (told := name_of(page, window, size))}
+            step = options.every or 1
+            chosen = TEXT_SIZES[number % step :: step] if not options.every or number % len(WINDOWS) == place else []
+            names = {name_of(page, window, size): size for size in TEXT_SIZES}
+            wanted = {
+                told: size
+                for told, size in names.items()
+                if (size in chosen and options.only in told) or any(also in told for also in options.also)
+            }
             if wanted:
                 bench.show(screen, fill, *next(iter(wanted.items())), window)
             for told, text_size in wanted.items():

@@ -16,7 +16,6 @@ from PySide6.QtCore import QCoreApplication, QEvent, QRectF
 from PySide6.QtQml import qmlEngine
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 from PySide6.QtWidgets import QApplication
-from pytestqt.qtbot import QtBot
 
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import FlipInMove
@@ -106,19 +105,21 @@ def study(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFacto
     return replace(whole, plans=(replace(plan, catalogue=catalogue, information=longer(plan.information)),))
 
 
-@pytest.fixture(params=[1.0, 1.3])
-def window(request: pytest.FixtureRequest, study: StudyConfig, qtbot: QtBot) -> Iterator[Window]:
-    """Provide the window of that study, with its texts as large as they are usually, and as large as they can be."""
-    (plan,) = study.plans
-    if plan.language == pseudo.LANGUAGE and request.param > 1:
-        pytest.skip("a language that is 40 % longer is test enough at its usual size")
-    screen = plan.settings.screen.model_copy(update={"text_size": request.param})
-    sized = replace(plan, settings=plan.settings.model_copy(update={"screen": screen}))
-    opened = Window(replace(study, plans=(sized,)), RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL))
-    opened.show()
-    qtbot.waitUntil(opened.shown.isExposed)
-    yield opened
-    opened.close()
+@pytest.fixture(scope="module")
+def opened(study: StudyConfig, qapp: QApplication) -> Iterator[Window]:
+    """Provide one window of that study."""
+    window = Window(study, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL))
+    window.show()
+    while not window.shown.isExposed():
+        qapp.processEvents()
+    yield window
+    window.close()
+
+
+@pytest.fixture
+def sizes(study: StudyConfig) -> Sequence[float]:
+    """Return the sizes of its texts; a language that is 40 % longer is test enough at its usual size."""
+    return (1.0,) if study.plans[0].language == pseudo.LANGUAGE else (1.0, 1.3)
 
 
 def longer(sheet: Information) -> Information:
@@ -342,11 +343,8 @@ def test_every_screen_fits_in_every_language_layout_and_text_size(
     window, study = kiosk
     shown, screens = window.shown, window.screens
     sizes = list(TextSize)
-    screens.avatar.clear()
     screens.avatar.appear(present=not layout.robot)
-    show_alone(window, "attract")
-    shown.resize(layout.width, layout.height)
-    QCoreApplication.processEvents()
+    resize(window, layout.width, layout.height)
     every = [list(moments(screens, replace(study, plans=(plan,)))) for plan in study.plans]
     # A page is made once, for all languages and sizes.
     for screen in dict.fromkeys(screen for _, screen, _ in every[0]):
@@ -367,7 +365,6 @@ def test_every_screen_fits_in_every_language_layout_and_text_size(
                     screens.kiosk.set_text_size(size)
                     lay_out(shown)
                     told = f"{moment}, {plan.language}, {size.value}"
-                    assert shown.contentItem().width() == layout.width
                     assert_all_can_be_read(shown, told)
                     assert_no_needless_scrolling(shown, told)
                     # The shipped questionnaires have four ratings on a page.
@@ -388,6 +385,15 @@ def show_alone(window: Window, screen: str) -> None:
         for page in (item, *item.childItems()):
             if page.inherits("QQuickLoader") and page.property("shown") is not None:
                 page.setProperty("active", page.property("shown"))
+
+
+def resize(window: Window, width: int, height: int) -> None:
+    """Give a window its first screen and this size; with another page it takes longer."""
+    show_alone(window, "attract")
+    window.screens.avatar.clear()
+    window.shown.resize(width, height)
+    QCoreApplication.processEvents()
+    assert window.shown.contentItem().width() == width
 
 
 def let_go(window: QQuickWindow) -> None:
@@ -412,11 +418,8 @@ def shown_in(kiosk: tuple[Window, StudyConfig], layout: Layout, wanted: Sequence
     screens.kiosk.begin(SHIPPED, "en", plan.settings.consent)
     screens.kiosk.offer_back(offered=True)
     screens.kiosk.set_text_size(TextSize.NORMAL)
-    screens.avatar.clear()
     screens.avatar.appear(present=not layout.robot)
-    show_alone(window, "attract")
-    window.shown.resize(layout.width, layout.height)
-    QCoreApplication.processEvents()
+    resize(window, layout.width, layout.height)
     for moment, screen, fill in moments(screens, replace(study, plans=(plan,))):
         if moment in wanted:
             fill()
@@ -533,56 +536,63 @@ def said(screen: str, plan: SessionConfig) -> str:
 
 @pytest.mark.parametrize(("width", "height"), SIZES)
 def test_no_text_is_cut_off_or_covers_another_or_is_too_small_and_what_is_declared_here_needs_no_scrolling(
-    window: Window, study: StudyConfig, qtbot: QtBot, width: int, height: int
+    opened: Window, study: StudyConfig, sizes: Sequence[float], width: int, height: int
 ) -> None:
-    shown, screens = window.shown, window.screens
-    # Larger or longer texts scroll.
-    usual = study.plans[0].language != pseudo.LANGUAGE and shown.property("textSize") == 1
-    shown.resize(width, height)
-    qtbot.waitUntil(lambda: shown.contentItem().width() == width)
+    shown, screens = opened.shown, opened.screens
+    resize(opened, width, height)
     for moment, screen, fill in moments(screens, study):
         fill()
-        screens.kiosk.show(screen)
+        show_alone(opened, screen)
         screens.avatar.say(longest_hint(study.plans[0].catalogue) if screen in SPEAKING else "")
-        lay_out(shown)
-        assert_all_can_be_read(shown, moment)
-        for text in texts(shown.contentItem()) if (width, height) == (1920, 1080) else ():
-            size = text.property("font").pixelSize()
-            assert size >= SMALLEST, (moment, text.property("text"), size)
-        if usual and (width, height) == (1280, 720):
-            # With a sentence of the helper there is less room than the study's own screens have.
-            assert moment.endswith("missing") or find_item(shown.contentItem(), "more") is None, moment
+        for text_size in sizes:
+            shown.setProperty("textSize", text_size)
+            lay_out(shown)
+            told = f"{moment}, {text_size}"
+            assert_all_can_be_read(shown, told)
+            for text in texts(shown.contentItem()) if (width, height) == (1920, 1080) else ():
+                size = text.property("font").pixelSize()
+                assert size >= SMALLEST, (told, text.property("text"), size)
+            # Larger or longer texts scroll.
+            if len(sizes) > 1 and text_size == 1 and (width, height) == (1280, 720):
+                # With a sentence of the helper there is less room than the study's own screens have.
+                assert moment.endswith("missing") or find_item(shown.contentItem(), "more") is None, told
 
 
-def test_words_over_everything_fit(window: Window, study: StudyConfig) -> None:
-    kiosk = window.screens.kiosk
-    said = []
-    for cover in (
-        partial(kiosk.ask_still_there, asks=True),
-        partial(kiosk.pause, paused=True),
-        partial(kiosk.show, "pause"),
-        partial(kiosk.come_back_at, "23:59"),
-    ):
-        cover()
-        lay_out(window.shown)
-        said.append({str(text.property("text")) for text in texts(window.shown.contentItem())})
-        whole = QRectF(0, 0, window.shown.width(), window.shown.height())
-        assert all(whole.contains(painted(text)) for text in texts(window.shown.contentItem()))
-    line, help_ = (study.plans[0].catalogue.text(name) for name in ("pause-line", "pause-help"))
-    assert [line in each for each in said] == [False, True, False, False]
-    assert [help_ in each for each in said] == [False, False, True, False]
-    assert any("23:59" in text for text in said[-1])
+def test_words_over_everything_fit(opened: Window, study: StudyConfig, sizes: Sequence[float]) -> None:
+    kiosk, shown = opened.screens.kiosk, opened.shown
+    for text_size in sizes:
+        resize(opened, 1920, 1080)
+        shown.setProperty("textSize", text_size)
+        said = []
+        for cover in (
+            partial(kiosk.ask_still_there, asks=True),
+            partial(kiosk.pause, paused=True),
+            partial(kiosk.show, "pause"),
+            partial(kiosk.come_back_at, "23:59"),
+        ):
+            cover()
+            lay_out(shown)
+            said.append({str(text.property("text")) for text in texts(shown.contentItem())})
+            whole = QRectF(0, 0, shown.width(), shown.height())
+            assert all(whole.contains(painted(text)) for text in texts(shown.contentItem()))
+        line, help_ = (study.plans[0].catalogue.text(name) for name in ("pause-line", "pause-help"))
+        assert [line in each for each in said] == [False, True, False, False]
+        assert [help_ in each for each in said] == [False, False, True, False]
+        assert any("23:59" in text for text in said[-1])
+        kiosk.come_back_at("")
+        kiosk.clear()
 
 
 @pytest.mark.parametrize(("width", "height"), SIZES)
 def test_what_is_spoken_is_never_longer_than_its_bubble(
-    window: Window, study: StudyConfig, qtbot: QtBot, width: int, height: int
+    opened: Window, study: StudyConfig, sizes: Sequence[float], width: int, height: int
 ) -> None:
     catalogue = study.plans[0].catalogue
-    window.shown.resize(width, height)
-    qtbot.waitUntil(lambda: window.shown.contentItem().width() == width)
-    for message in ("introduction-speech", "practice-speech", "thanks-speech"):
-        given = {"cards": 24, "pairs": 12} if message.startswith("introduction") else {}
-        window.screens.avatar.say(max(catalogue.wordings(message, **given), key=len))
-        lay_out(window.shown)
-        assert all(painted(text).top() >= 0 for text in texts(window.shown.contentItem())), message
+    resize(opened, width, height)
+    for text_size in sizes:
+        opened.shown.setProperty("textSize", text_size)
+        for message in ("introduction-speech", "practice-speech", "thanks-speech"):
+            given = {"cards": 24, "pairs": 12} if message.startswith("introduction") else {}
+            opened.screens.avatar.say(max(catalogue.wordings(message, **given), key=len))
+            lay_out(opened.shown)
+            assert all(painted(text).top() >= 0 for text in texts(opened.shown.contentItem())), message

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import pytest
 from fluent.syntax import FluentParser, FluentSerializer, ast
 from fluent.syntax.visitor import Transformer
+from PySide6.QtGui import QGuiApplication
 from PySide6.QtQuick import QQuickItem
-from pytestqt.qtbot import QtBot
 
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import ASSETS, Settings
@@ -21,7 +20,7 @@ from kiosk.study.loader import read_study
 from kiosk.ui.simulated_visitor import lay_out
 from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
 from tests.ui.settling import pages
-from tests.ui.test_every_language_fits import SIZES, assert_all_can_be_read, moments, texts
+from tests.ui.test_every_language_fits import SIZES, assert_all_can_be_read, moments, resize, show_alone, texts
 
 PAGES = [page for page in pages() if page[0].endswith("no place to break") and page[0][0] in "a135"]
 
@@ -51,12 +50,12 @@ def rejoined(value: Any) -> Any:
     return value
 
 
-@pytest.fixture
-def study(tmp_path: Path) -> StudyConfig:
+@pytest.fixture(scope="module")
+def study(tmp_path_factory: pytest.TempPathFactory) -> StudyConfig:
     """Return a study in a language whose sentences are single words."""
     whole = read_study(Settings(languages=("en",)))
     (plan,) = whole.plans
-    folder = tmp_path / "en"
+    folder = tmp_path_factory.mktemp("joined") / "en"
     folder.mkdir()
     for file in (ASSETS / "sentences" / "en").glob("*.ftl"):
         resource = _Joined().visit(FluentParser().parse(file.read_text("utf-8")))
@@ -68,66 +67,61 @@ def study(tmp_path: Path) -> StudyConfig:
     return replace(whole, plans=(there,))
 
 
-@pytest.fixture
-def window(study: StudyConfig, qtbot: QtBot) -> Iterator[Window]:
+def opened(study: StudyConfig, qapp: QGuiApplication) -> Iterator[Window]:
+    """Provide the window of a study."""
+    window = Window(study, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL))
+    window.show()
+    while not window.shown.isExposed():
+        qapp.processEvents()
+    yield window
+    window.close()
+
+
+@pytest.fixture(scope="module")
+def window(study: StudyConfig, qapp: QGuiApplication) -> Iterator[Window]:
     """Its window, with texts as large as they can be."""
-    opened = Window(study, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL))
-    opened.show()
-    qtbot.waitUntil(opened.shown.isExposed)
-    yield opened
-    opened.close()
-
-
-def resize(window: Window, qtbot: QtBot, width: int, height: int) -> None:
-    """Give the window this size."""
-    window.shown.resize(width, height)
-    qtbot.waitUntil(lambda: window.shown.contentItem().width() == width)
+    yield from opened(study, qapp)
 
 
 @pytest.mark.parametrize(("width", "height"), SIZES)
-def test_long_words_are_broken_and_cover_nothing(window: Window, qtbot: QtBot, width: int, height: int) -> None:
-    resize(window, qtbot, width, height)
+def test_long_words_are_broken_and_cover_nothing(window: Window, width: int, height: int) -> None:
+    resize(window, width, height)
     window.screens.avatar.say("w" * 100)
     for page, screen, fill in PAGES:
         fill(window.screens)
-        window.screens.kiosk.show(screen)
+        show_alone(window, screen)
         lay_out(window.shown)
         assert_all_can_be_read(window.shown, page)
 
 
 @pytest.mark.parametrize(("width", "height"), SIZES)
 def test_a_language_without_spaces_is_readable_on_every_screen(
-    window: Window, study: StudyConfig, qtbot: QtBot, width: int, height: int
+    window: Window, study: StudyConfig, width: int, height: int
 ) -> None:
-    resize(window, qtbot, width, height)
+    resize(window, width, height)
     for moment, screen, fill in moments(window.screens, study):
         fill()
-        window.screens.kiosk.show(screen)
+        show_alone(window, screen)
         lay_out(window.shown)
         assert_all_can_be_read(window.shown, moment)
 
 
-@pytest.fixture(params=["en", "es", "it"])
-def shipped(request: pytest.FixtureRequest, qtbot: QtBot) -> Iterator[Window]:
+@pytest.fixture(scope="module", params=["en", "es", "it"])
+def shipped(request: pytest.FixtureRequest, qapp: QGuiApplication) -> Iterator[Window]:
     """Provide the window of a study in one of the shipped languages."""
-    study = read_study(Settings.model_validate({"languages": [request.param]}))
-    opened = Window(study, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL))
-    opened.show()
-    qtbot.waitUntil(opened.shown.isExposed)
-    yield opened
-    opened.close()
+    yield from opened(read_study(Settings.model_validate({"languages": [request.param]})), qapp)
 
 
-@pytest.mark.parametrize("text_size", [0.9, 1.0, 1.1, 1.2, 1.3])
-def test_a_word_that_fits_is_not_broken(shipped: Window, qtbot: QtBot, text_size: float) -> None:
-    shipped.shown.setProperty("textSize", text_size)
-    for width, height in SIZES:
-        resize(shipped, qtbot, width, height)
-        for screen in ("attract", "about", "consent", "age", "form", "introduction", "result", "debrief", "thanks"):
-            shipped.screens.kiosk.show(screen)
+@pytest.mark.parametrize(("width", "height"), SIZES)
+def test_a_word_that_fits_is_not_broken(shipped: Window, width: int, height: int) -> None:
+    resize(shipped, width, height)
+    for screen in ("attract", "about", "consent", "age", "form", "introduction", "result", "debrief", "thanks"):
+        show_alone(shipped, screen)
+        for text_size in (0.9, 1.0, 1.1, 1.2, 1.3):
+            shipped.shown.setProperty("textSize", text_size)
             lay_out(shipped.shown)
             broken = [text.property("text") for text in texts(shipped.shown.contentItem()) if is_broken(text)]
-            assert broken == [], (screen, width)
+            assert broken == [], (screen, text_size)
 
 
 def is_broken(text: QQuickItem) -> bool:
