@@ -51,7 +51,7 @@ Item {
     // How high it is without that, and how much can be added.
     readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asked.asks + (way.active ? usualSpacing + way.height : 0)) + 2 * usualMargin
     readonly property real addable: alone || beside ? 0 : 32 * Theme.unit
-    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : questionHeight > 0 ? Theme.textSize > 1 ? 12 : 18 : airy ? 22 : calm ? 14 : 8) * Theme.unit
+    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : questionHeight > 0 ? Theme.textSize > 1 ? 16 : 24 : airy ? 22 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
     readonly property real usualMargin: alone ? 0 : own ? Math.max(10 * Theme.unit, rowMargin - taken / 2) : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : questionHeight > 0 ? 12 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.

@@ -44,7 +44,7 @@ Item {
         : Math.min(1.6 * size, Math.max(0.25 * size, (below ? width - points * size : spare) / Math.max(1, points - 1)))
     readonly property real span: points * size + (points - 1) * gap
 
-    readonly property real under: (own ? 6 : large && Theme.textSize <= 1.15 ? 20 : 12) * Theme.unit
+    readonly property real under: (own ? 6 : large && Theme.textSize <= 1.15 ? 14 : 12) * Theme.unit
     readonly property real words: Math.max(lowest.height, highest.height)
     // Below a few points there would be room for a few letters only: the ends then reach beyond the points.
     readonly property real half: Math.min(width / 2 - Theme.gap, Math.max(span / 2 - 0.5 * Theme.gap, most))

@@ -36,10 +36,10 @@ Item {
 
     // What there is to do stands above it.
     readonly property real hintHeight: 1.4 * hint.font.pixelSize
-    readonly property real above: hintHeight + (own && !flank ? 1 : 4) * Theme.unit
+    readonly property real above: hintHeight + (own && !flank || large ? 2 : 4) * Theme.unit
 
     readonly property real words: Math.max(lower.height, upper.height)
-    readonly property real apart: (own ? 3 : large ? 11 : 4) * Theme.unit
+    readonly property real apart: (own ? 3 : large ? 7 : 4) * Theme.unit
     // Among other kinds of items the ends stand beside the line, and what there is to do in it.
     readonly property bool level: !own && !alone && !large
     readonly property real most: 250 * Theme.unit * Theme.textSize
