@@ -11,21 +11,25 @@ PageFrame {
     required property string labName
 
     // As much of the height as the text leaves, so that a page that fits does not scroll.
-    readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min((signed && width < height ? 340 : 350) * Theme.unit, room - texts.height - (pad < 0.7 * Theme.gap ? 2.1 : 2.6) * Theme.gap))
+    readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min((signed && width < height ? most : 350) * Theme.unit, room - texts.height - 2 * pad - 2 * rim - 1.1 * Theme.gap))
+    // How large the code may be on an upright page, where the words beside it have to find room.
+    readonly property real most: width < height && fits(Theme.size(34), noted, apart, 400) ? 400 : 340
+    // How far the white around the code reaches beyond its own frame, for round corners.
+    readonly property real rim: 6 * Theme.unit
     // Whole pixels for each square, so that their edges are sharp.
     readonly property int square: Math.max(2, Math.floor(side / Math.max(1, debrief.squares)))
 
     // Lines with drawings stand below each other, as large as the page has room for above the card; on a page that has too
     // little for that, without the drawings.
     readonly property bool signed: debrief.lines.length > 0 && debrief.lines[0].sign !== "" && fits(Theme.small, Theme.small, 0.5)
-    readonly property real size: signed ? (width < height ? [38, 36, 34, 32, 30, 29] : [32, 30, 29]).map(Theme.size).find(size => fits(size, noted, apart)) ?? Theme.small
+    readonly property real size: signed ? (width < height ? [38, 36, 34, 32, 30, 29] : [32, 30, 29]).map(Theme.size).find(size => fits(size, noted, apart, most > 340 ? most : 290)) ?? Theme.small
         : room < 720 * Theme.unit ? Theme.small : Theme.reading
     // What stands on the card is read from it at home, in a photograph.
     readonly property real noted: [Theme.body, Theme.reading].find(size => fits(Theme.size(32), size, width < height ? 0.5 : 0.4)) ?? Theme.small
     // How far what stands on the card is from its upper and lower edge.
-    readonly property real pad: (signed && width < height ? 1.5 : signed && noted > Theme.small ? 0.5 : 0.75) * Theme.gap
+    readonly property real pad: (signed && width < height ? 1.5 : !signed ? 0.75 : fits(size, noted, apart, 290, 52) ? 1.4 : noted > Theme.small ? 0.5 : 0.75) * Theme.gap
     // How far the lines are apart, in gaps: further where there is room for that.
-    readonly property real apart: (width < height ? [1] : accompanied ? [1.1, 0.9, 0.7] : []).find(apart => fits(Theme.size(32), noted, apart))
+    readonly property real apart: (width < height ? [1] : accompanied ? [1.1, 0.9, 0.7] : []).find(apart => fits(Theme.size(32), noted, apart, 290, width < height ? 0 : 52))
         ?? (width > height && noted > Theme.small ? 0.4 : 0.5)
     // Beside a drawing, a heading and its text stand close, so that they are seen as one.
     readonly property real leading: 0.9
@@ -39,23 +43,23 @@ PageFrame {
         font { pixelSize: 100; bold: true }
     }
     // Whether the lines have this size at most, with the card below them in its own.
-    function fits(size: real, cardSize: real, apart: real): bool {
-        return estimate(size, cardSize, apart) <= (width < height ? 0.93 : Theme.unit < 0.9 ? 0.96 : 1) * room
+    function fits(size: real, cardSize: real, apart: real, most = 290, more = 0): bool {
+        return estimate(size, cardSize, apart, most) + more * Theme.unit <= (width < height ? 0.93 : Theme.unit < 0.9 ? 0.96 : 1) * room
     }
     // How high lines and card are about then.
-    function estimate(size: real, cardSize: real, apart: real): real {
+    function estimate(size: real, cardSize: real, apart: real, most = 290): real {
         // Small letters are set on whole pixels, which makes them wider.
         const wide = (column - 2.5 * size - Theme.gap) * (Theme.unit < 0.9 ? 0.95 : 0.98)
         const tall = read.reduce((sum, line) => sum + Math.max(2.5 * size, broken(line.text, size, wide) * (leading + 0.06) * Math.ceil(1.37 * size)), 0)
-        const beside = (column - 290 * Theme.unit - (width < height ? 4 : 2.5) * Theme.gap) * 0.95
+        const beside = (column - most * Theme.unit - (width < height ? 4 : 2.5) * Theme.gap) * 0.95
         const noted = [debrief.scanning, width < height ? words["debrief-code"] : "", debrief.withdrawing, debrief.returning, debrief.questions].reduce((sum, text) => sum + lines(text, cardSize, beside), 0)
         const heading = lines(kept, 1.08 * Theme.body, beside)
         const card = heading * Math.ceil(1.37 * Theme.body) + 1.38 * Theme.size(72) + noted * Math.ceil(1.37 * cardSize) + (width < height ? 4.1 : cardSize > Theme.small ? 1.8 : 2.6) * Theme.gap
-        return tall + (read.length + 1) * apart * Theme.gap + Math.max((width < height ? 362 : cardSize > Theme.small ? 318 : 266) * Theme.unit, card)
+        return tall + (read.length + 1) * apart * Theme.gap + Math.max((width < height ? Math.max(362, most + 72) : cardSize > Theme.small ? 318 : 266) * Theme.unit, card)
     }
     // What is added to that where an upright page has room for it.
     readonly property real further: !signed || width > height ? 0
-        : Math.max(0, Math.min(Theme.gap, (0.92 * room - estimate(size, noted, apart)) / read.length))
+        : Math.max(0, Math.min(Theme.gap, (0.92 * room - estimate(size, noted, apart, most > 340 ? most : 290)) / read.length))
     // The lines of a point, whose heading is bold; lines that break at words are not full.
     function broken(text: string, size: real, room: real): int {
         return text.split("\n").reduce((sum, part, index) => {
@@ -126,7 +130,7 @@ PageFrame {
                 id: keepsake
                 y: parts.cardFirst ? 0 : texts.height + parts.apart
                 width: pane.width
-                height: visible ? Math.max(qr.height, told.height) + 2 * view.pad : 0
+                height: visible ? Math.max(qr.height + 2 * view.rim, told.height) + 2 * view.pad : 0
                 // Who is not stored has no code, and may have questions all the same.
                 visible: view.debrief.code !== "" || view.debrief.questions !== ""
                 radius: Theme.radius
@@ -138,10 +142,16 @@ PageFrame {
                     id: qr
                     objectName: "qr"
                     visible: view.debrief.code !== ""
-                    anchors { left: parent.left; leftMargin: view.pad; verticalCenter: parent.verticalCenter }
+                    anchors { left: parent.left; leftMargin: view.pad + view.rim; verticalCenter: parent.verticalCenter }
                     width: view.square * view.debrief.squares
                     height: width
                     color: "white"
+                    Rectangle {
+                        z: -1
+                        anchors { fill: parent; margins: -view.rim }
+                        radius: 3 * view.rim
+                        color: "white"
+                    }
                     Image {
                         anchors.fill: parent
                         source: view.debrief.picture
@@ -159,12 +169,11 @@ PageFrame {
                         verticalCenter: parent.verticalCenter
                     }
                     spacing: (view.signed ? 0.2 : 0.3) * Theme.gap
-                    PlainText {
+                    Balanced {
                         width: parent.width
                         text: view.kept
                         font { pixelSize: Theme.body; bold: true }
                         horizontalAlignment: Text.AlignLeft
-                        wrapMode: Text.Wrap
                     }
                     Balanced {
                         objectName: "scanning"

@@ -49,7 +49,7 @@ FocusScope {
 
     // The last of several lines, if the helper can say it: a bubble holds a short text only.
     function sayable(lines: var): string {
-        const last = lines[lines.length - 1]?.text ?? ""
+        const last = (lines[lines.length - 1]?.text ?? "").replace("\n", " ")
         return accompanied && lines.length > 1 && last.length <= 130 ? last : ""
     }
 

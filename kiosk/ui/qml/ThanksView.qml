@@ -16,13 +16,15 @@ PageFrame {
     // Who found no pair sees some of the cards.
     readonly property list<url> pictures: result.pictures.length > 0 ? result.pictures : attract.pictures
     readonly property int count: Math.min(5, pictures.length)
-    readonly property real overlap: width > height ? 0.72 : 1.1
-    // On an upright screen they lie in two rows, and none covers another.
-    readonly property int lines: width < height && count > 3 ? 2 : 1
+    // None covers another: what makes an animal may be at its edge.
+    readonly property real overlap: 1.1
+    // In two rows where they are larger so.
+    readonly property int lines: count > 3 && (width < height || free / 2.7 > column / (overlap * (count - 1) + 1.25)) ? 2 : 1
+    readonly property real free: room - parting.height - parting.space
     readonly property int first: Math.ceil(count / lines)
     // With room for the cards' slant.
     readonly property real slot: Math.max(0, Math.min(300 * Theme.unit, column / (overlap * (first - 1) + 1.25),
-        (room - parting.height - parting.space) / (lines > 1 ? 2.5 : 1.5)))
+        free / (lines > 1 ? (width > height ? 2.7 : 2.5) : 1.5)))
     readonly property real spread: (lines > 1 ? 2.35 : 1.3) * slot
     // The hand opens as the screen comes.
     property real open: visible ? 1 : 0
@@ -60,7 +62,7 @@ PageFrame {
                 y: 0.05 * view.slot + 0.04 * view.slot * place * place * view.open + (below ? 1.16 * view.slot : 0)
                 width: Math.floor(view.slot)
                 height: width
-                rotation: (view.lines > 1 ? 5 : 7) * place * view.open
+                rotation: 5 * place * view.open
                 back: view.cardBack
                 shadow: view.cardShadow
                 picture: view.pictures[index] ?? ""
