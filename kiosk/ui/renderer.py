@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from enum import Enum
 from functools import partial
 from pathlib import Path
@@ -101,25 +101,30 @@ class Renderer:
         self.screens.clear()
         self.screens.kiosk.show(screen)
 
-    def perform(self, effects: Iterable[Effect]) -> None:  # noqa: C901, PLR0912, PLR0915 - one case per effect
+    def perform(self, effects: Iterable[Effect]) -> None:
         """Carry out these effects in their order."""
+        for _ in self.steps(effects):
+            pass
+
+    def steps(self, effects: Iterable[Effect]) -> Iterator[None]:  # noqa: C901, PLR0912, PLR0915 - one case per effect
+        """Carry out these effects in their order; yields where the event loop may do other things in between."""
         screens = self.screens
         for effect in effects:
             match effect:
                 case do.ShowAbout(page=page):
                     screens.about.show(page)
-                    screens.kiosk.show("about")
+                    yield from self._turn_to("about")
                 case do.ShowConsent(page=sheet):
                     screens.consent.show(sheet)
-                    screens.kiosk.show("consent")
+                    yield from self._turn_to("consent")
                 case do.ShowTicks(purposes=purposes):
                     screens.consent.show_ticks(purposes)
                 case do.ShowAgeQuestion(adult=adult):
                     screens.age.ask(adult)
-                    screens.kiosk.show("age")
+                    yield from self._turn_to("age")
                 case do.ShowIntroduction(helped=helped, points=points):
                     screens.introduction.show(helped=helped, points=points)
-                    screens.kiosk.show("introduction")
+                    yield from self._turn_to("introduction")
                 case do.ShowBoard(practice=practice):
                     screens.board.deal(effect.rows, effect.columns, effect.pairs, effect.deck, practice=practice)
                     screens.kiosk.show("practice" if practice else "game")
@@ -172,9 +177,10 @@ class Renderer:
                         self._body.express(mood)
                 case do.ShowResult(pairs=pairs, moves=moves, time_ms=time_ms, hints=hints):
                     screens.result.show(pairs, moves, time_ms, hints, screens.board.found)
-                    screens.kiosk.show("result")
+                    yield from self._turn_to("result")
                 case do.ShowItems(items=items, number=number, of=pages, rates=rates, hidden=hidden):
                     screens.form.show(items, number, pages, hidden)
+                    yield from self._while_unseen("form")
                     self._let_be_rated(rated=rates)
                     screens.kiosk.show("form")
                 case do.HideItems(items=hidden):
@@ -185,7 +191,7 @@ class Renderer:
                     (screens.consent if screens.kiosk.shown == "consent" else screens.form).show_missing(names)
                 case do.ShowDebrief(page=page):
                     screens.debrief.show(page)
-                    screens.kiosk.show("debrief")
+                    yield from self._turn_to("debrief")
                 case do.ShowThanks():
                     screens.kiosk.show("thanks")
                 case do.ShowPause():
@@ -214,6 +220,19 @@ class Renderer:
                     self._stop_wait(timer)
                 case _ as unreachable:
                     assert_never(unreachable)
+
+    def _turn_to(self, page: str) -> Iterator[None]:
+        """Show a page that is filled."""
+        yield from self._while_unseen(page)
+        self.screens.kiosk.show(page)
+
+    def _while_unseen(self, page: str) -> Iterator[None]:
+        """Yield between filling a page and showing it: together they would hold up the loop for two frames.
+
+        A page that is on the screen already must not be seen half changed.
+        """
+        if self.screens.kiosk.shown != page:
+            yield
 
     @property
     def body_name(self) -> EmbodimentName | None:

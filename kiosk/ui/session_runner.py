@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections import deque
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from datetime import datetime
 from functools import partial
@@ -290,6 +290,14 @@ class _Handled:
     outcome: Outcome
 
 
+@dataclass(frozen=True)
+class _Showing:
+    """The effects of a recorded event, which are carried out in steps of the event loop."""
+
+    handled: _Handled
+    steps: Iterator[None]
+
+
 class SessionRunner:
     """Runs one session after another; it is also the body's listener."""
 
@@ -317,6 +325,8 @@ class SessionRunner:
         self._waiting_since: dict[Timer, int] = {Timer.IDLE: 0}
         """When each wait began that any activity of the visitor puts off."""
         self._shut = self._on_break = False
+        self._closes = False
+        """Whether no event loop runs any more that could go on with anything."""
         self._error_screen_wait: TimerWait | None = None
         self._recorder = recorder
         self._clock = clock
@@ -327,6 +337,7 @@ class SessionRunner:
         self.returns.on_failure = self._give_way
         self._queue: deque[WorldEvent] = deque()
         self._unwritten: _Handled | None = None
+        self._showing: _Showing | None = None
         self.later: Callable[[Callable[[], None]], object] = lambda call: call()
         """Has something done in a further step of the event loop, where there is one."""
         self.writer: DiskWriter | None = None
@@ -451,12 +462,14 @@ class SessionRunner:
             return
         self._queue.append(event)
         # What happens while an event is at work, such as a voice that fails at once, waits for its turn.
-        if not self._working and not self._waits_for_database:
+        if not self._working and not self._is_held_up:
             self._work()
 
     @property
-    def _waits_for_database(self) -> bool:
-        return self._busy.under_way or (self.writer is not None and self.writer.is_under_way)
+    def _is_held_up(self) -> bool:
+        """Whether what happened last waits for the database, or for its next step of the event loop."""
+        writes = self.writer is not None and self.writer.is_under_way
+        return writes or self._busy.under_way or self._showing is not None
 
     def _timer_expired(self, timer: Timer) -> None:
         last, since = self.last_activity_ms(), self._waiting_since.get(timer)
@@ -489,8 +502,9 @@ class SessionRunner:
         is in vain, the session counts as interrupted from the last thing that was written.
         """
         self._busy.end()
+        self._closes = True
         with self._recorder.retrying(CLOSING_WAIT_MS):
-            if self.writer is not None and self.writer.is_under_way:
+            if self._is_held_up:
                 self._work()
                 self._busy.end()
             self.writer = None
@@ -541,6 +555,7 @@ class SessionRunner:
     ) -> None:
         self._session = session or _new_session(provenance)
         self._record = record
+        self._showing = None
         self._begun_at = begun_at
         self._renderer.begin(provenance.plan)
         offered = provenance.plan.settings.returning.enabled and provenance.plan.visit == 1
@@ -557,50 +572,65 @@ class SessionRunner:
         if self.writer is not None:
             self.writer.forget()
         self._queue.clear()
-        self._session = self._record = self._unwritten = None
+        self._session = self._record = self._unwritten = self._showing = None
         self.returns.end()
         self._renderer.reset("pause" if self._shut or self._on_break else screen)
         self.on_idle()
 
-    def _work(self) -> None:  # noqa: C901 - one branch for each way in which a write goes on
-        """Handle, write and show what happened, in turn, until nothing is left or the database cannot take it now."""
+    def _work(self) -> None:  # noqa: C901, PLR0912 - one branch for each way in which it goes on later
+        """Handle, write and show what happened, in turn, until nothing is left or it is to wait."""
         self._working = True
         try:
-            while self._session is not None and self._record is not None and (self._unwritten or self._queue):
-                session = self._session
-                if self._unwritten is None:
-                    event = self._queue.popleft()
+            while self._session is not None and self._record is not None:
+                session, record = self._session, self._record
+                if self._showing is None:
+                    if self._unwritten is None:
+                        if not self._queue:
+                            return
+                        event = self._queue.popleft()
+                        try:
+                            self._unwritten = _Handled(event, session.handle(event))
+                        except InvalidTransition as refusal:
+                            _log.info("%s", refusal)
+                            continue
+                    handled = self._unwritten
                     try:
-                        self._unwritten = _Handled(event, session.handle(event))
-                    except InvalidTransition as refusal:
-                        _log.info("%s", refusal)
-                        continue
-                handled = self._unwritten
-                try:
-                    if self.writer is not None and self.writer.is_under_way:
-                        self.writer.end()
-                    elif self.writer is not None and self._record.reaches_disk(handled.outcome):
-                        self.writer.begin(partial(self._record.write, handled.event, handled.outcome), self._work)
+                        if self.writer is not None and self.writer.is_under_way:
+                            self.writer.end()
+                        elif self.writer is not None and not self._closes and record.reaches_disk(handled.outcome):
+                            self.writer.begin(partial(record.write, handled.event, handled.outcome), self._work)
+                            return
+                        else:
+                            record.write(handled.event, handled.outcome)
+                    except StoreBusy as busy:
+                        self._try_again(self._work, busy)
                         return
-                    else:
-                        self._record.write(handled.event, handled.outcome)
-                except StoreBusy as busy:
-                    self._try_again(self._work, busy)
-                    return
-                except StorageError as failure:
-                    self._give_way(failure)
-                    return
-                self._busy.end()
-                self._unwritten = None
-                self._record.confirm()
-                if self._record.is_kept:
-                    self.on_recorded(self._record.participant, (handled.event, *handled.outcome.events))
-                self._before_effects(handled.outcome, self._record.code, returns=session.may_return)
-                self._renderer.screens.kiosk.reach(session.stage.value)
-                self._renderer.perform(handled.outcome.effects)
-                self._after_effects(handled, session.stage)
+                    except StorageError as failure:
+                        self._give_way(failure)
+                        return
+                    showing = self._begin_to_show(handled, session, record)
+                else:
+                    # Taken out: where an effect fails, the session goes on without those after it.
+                    showing, self._showing = self._showing, None
+                for _ in showing.steps:
+                    if not self._closes:
+                        self._showing = showing
+                        self.later(self._work)
+                        return
+                self._after_effects(showing.handled, session.stage)
         finally:
             self._working = False
+
+    def _begin_to_show(self, handled: _Handled, session: Session, record: SessionRecording) -> _Showing:
+        """Tell everything around the session that its event was taken; its effects come next."""
+        self._busy.end()
+        self._unwritten = None
+        record.confirm()
+        if record.is_kept:
+            self.on_recorded(record.participant, (handled.event, *handled.outcome.events))
+        self._before_effects(handled.outcome, record.code, returns=session.may_return)
+        self._renderer.screens.kiosk.reach(session.stage.value)
+        return _Showing(handled, self._renderer.steps(handled.outcome.effects))
 
     def _before_effects(self, outcome: Outcome, code: str, *, returns: bool) -> None:
         self._screen_changed = False

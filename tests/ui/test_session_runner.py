@@ -12,7 +12,7 @@ from PySide6.QtCore import Qt
 from kiosk import StorageError
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import Event
-from kiosk.experiment.outcomes import Status
+from kiosk.experiment.outcomes import Stage, Status
 from kiosk.game import Position
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
@@ -289,10 +289,31 @@ def test_closing_waits_for_the_write_under_way_and_loses_nothing(booth: Booth, s
         assert stored.sessions()[0].status is Status.INTERRUPTED
 
 
+@pytest.mark.parametrize("closed", [False, True], ids=["the loop goes on", "the kiosk is closed meanwhile"])
+def test_a_page_is_filled_in_one_step_and_shown_in_the_next(booth: Booth, closed: bool) -> None:  # noqa: FBT001 - a parameter
+    steps: list[Callable[[], None]] = []
+    shown: list[tuple[str, ...]] = []
+    app = booth.app
+    app.runner.on_event = lambda event, *_: shown.append((type(event).__name__, booth.screen))
+    app.runner.later = steps.append
+    app.runner.start("en")
+    assert (booth.screen, bool(app.screens.introduction.helped), shown) == ("attract", True, [])
+    # What happens meanwhile waits, and a tap on the page before is none on this one.
+    app.runner.dispatch(happened.ContinuePressed(at_ms=0))
+    assert len(steps) == 1
+    if closed:
+        app.runner.close()
+    else:
+        steps[0]()
+    names = ("SessionStarted", "SpeechStarted", *(["ApplicationClosed"] if closed else []))
+    assert shown == [(name, "introduction") for name in names]
+
+
 @pytest.mark.parametrize("dropped", [False, True], ids=["the session ends", "the session is dropped meanwhile"])
 def test_the_pages_are_cleared_in_one_step_and_the_start_screen_comes_in_the_next(booth: Booth, dropped: bool) -> None:  # noqa: FBT001 - a parameter
     steps: list[Callable[[], None]] = []
-    booth.app.runner.later = steps.append
+    runner = booth.app.runner
+    runner.later = lambda step: steps.append(step) if runner.stage is Stage.OVER else step()
     booth.rehearse(seed=1)
     assert (booth.screen, booth.app.screens.board.rowCount()) == ("form", 0)
     if dropped:
