@@ -7,13 +7,16 @@ from contextlib import closing
 
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
 from PySide6.QtTest import QTest
 
+from kiosk.experiment.events import AbortRequested
 from tests.ui.conftest import Booth
 from tests.ui.exits.attempts import ATTEMPTS, Attempt
 from tests.ui.exits.desktops import Desktop, kiosk_on
 from tests.ui.exits.hands import Hands
-from tests.ui.exits.kiosk import TOUCHES, Fingers
+from tests.ui.exits.kiosk import CARDS, TOUCHES, Fingers
+from tests.ui.headless import PLAIN, headless
 
 NO_KEY = Qt.KeyboardModifier.NoModifier
 BACK_S = 10
@@ -62,31 +65,53 @@ def test_every_quick_attempt_is_one_of_the_list() -> None:
     assert {attempt.name for attempt in ATTEMPTS} >= set(QUICK)
 
 
+@pytest.fixture(scope="module")
+def at_work(qapp: QGuiApplication, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Booth]:
+    """Provide one booth for all attempts in front of it."""
+    data = tmp_path_factory.mktemp("data")
+    with headless(PLAIN, data) as app:
+        while not (app.window.isExposed() and app.window.isActive()):
+            qapp.processEvents()
+        yield Booth(app, data)
+
+
+@pytest.fixture
+def booth(at_work: Booth) -> Booth:
+    """Return the booth in a game of which no card was touched."""
+    app, runner = at_work.app, at_work.app.runner
+    if at_work.screen == "game" and len(app.screens.board.closed) < CARDS:
+        runner.dispatch(AbortRequested(at_ms=runner.now_ms(), reason="a test"))
+        at_work.wait_until(lambda: at_work.screen == "attract")
+    if at_work.screen == "attract":
+        at_work.start_game()
+    assert (at_work.screen, len(app.screens.board.closed)) == ("game", CARDS)
+    return at_work
+
+
 @pytest.mark.parametrize("gesture", TOUCHES)
 def test_fingers_do_not_leave_the_kiosk(booth: Booth, gesture: str) -> None:
-    booth.start_game()
     booth.settle()
     TOUCHES[gesture](Fingers(booth.app))
     assert booth.screen == "game"
     assert booth.app.window.isVisible()
     taps: list[object] = []
-    booth.app.screens.board.tapped.connect(taps.append)
+    tapped = booth.app.screens.board.tapped
+    tapped.connect(taps.append)
     booth.click("card-23")
+    tapped.disconnect(taps.append)
     assert len(taps) == 1
 
 
 @pytest.mark.parametrize("button", [Qt.MouseButton.RightButton, Qt.MouseButton.MiddleButton, Qt.MouseButton.BackButton])
 def test_no_other_button_does_anything(booth: Booth, button: Qt.MouseButton) -> None:
-    booth.start_game()
     booth.click("card-3", button)
     assert booth.screen == "game"
-    assert len(booth.app.screens.board.closed) == 24
+    assert len(booth.app.screens.board.closed) == CARDS
 
 
 @pytest.mark.parametrize("key", [Qt.Key.Key_Print, Qt.Key.Key_Menu, Qt.Key.Key_F1, Qt.Key.Key_F10, Qt.Key.Key_Super_L])
 def test_keys_that_open_something_elsewhere_do_nothing(booth: Booth, key: Qt.Key) -> None:
-    booth.start_game()
     booth.settle()
     QTest.keyClick(booth.app.window, key, NO_KEY)
     assert booth.screen == "game"
-    assert len(booth.app.screens.board.closed) == 24
+    assert len(booth.app.screens.board.closed) == CARDS

@@ -28,6 +28,7 @@ from kiosk.ui.simulated_visitor import lay_out
 from kiosk.ui.window import ClockMode, RunMode, WindowMode
 from tests.experiment.driver import Driver, with_memory
 from tests.samples import whole
+from tests.ui.headless import HALF
 
 SEED = 5
 
@@ -35,7 +36,7 @@ SEED = 5
 @pytest.fixture(scope="module")
 def played() -> Driver:
     """Return a whole session, of which everything is known."""
-    driver = Driver(whole(game={"rows": 2, "columns": 4}), SEED)
+    driver = Driver(whole(game={"rows": 2, "columns": 2}), SEED)
     driver.whole_session(with_memory(3))
     return driver
 
@@ -57,7 +58,9 @@ def steps(played: Driver) -> tuple[ReplayStep, ...]:
 @pytest.fixture
 def replay(played: Driver, steps: tuple[ReplayStep, ...], qtbot: QtBot) -> Iterator[Replay]:
     """Provide the replay, standing before the first step."""
-    with Replay(RunMode(WindowMode.NOWHERE, ClockMode.WALL, 32), played.plan, steps, "Session 1") as replay:
+    with Replay(
+        RunMode(WindowMode.NOWHERE, ClockMode.WALL, 32, size=HALF.size), played.plan, steps, "Session 1"
+    ) as replay:
         qtbot.waitUntil(lambda: replay.window.isExposed() and replay.window.isActive())
         yield replay
 
