@@ -30,7 +30,7 @@ from kiosk.ui.session_runner import LONGEST_MS, TOLD_AFTER_MS
 from kiosk.ui.simulated_visitor import lay_out
 from kiosk.ui.window import RunMode, WindowMode
 from tests.ui.conftest import Booth, MakeBooth
-from tests.ui.headless import BRIEF, HALF, headless, short
+from tests.ui.headless import BRIEF, HALF, TINY, headless, short
 
 GALLERY = Questionnaire.read(ASSETS / "questionnaires" / "gallery.toml")
 HELD_MS = 30_000
@@ -219,8 +219,10 @@ def test_a_new_session_begins_when_the_database_is_free_and_at_the_time_of_the_t
 
 
 def test_a_database_that_stays_held_is_a_failure_of_the_disk_in_the_end(
-    booth: Booth, other: Other, caplog: pytest.LogCaptureFixture
+    make_booth: MakeBooth, other_of: Callable[[Booth], Other], caplog: pytest.LogCaptureFixture
 ) -> None:
+    booth = make_booth(settings=TINY)
+    other = other_of(booth)
     booth.start_game()
     booth.settle()
     other.hold()
@@ -264,8 +266,10 @@ def test_closing_while_the_database_stays_held_leaves_a_session_that_was_interru
 
 
 def test_a_fault_meanwhile_shows_the_calm_screen_and_leaves_nothing_for_the_next_visitor(
-    booth: Booth, other: Other, caplog: pytest.LogCaptureFixture
+    make_booth: MakeBooth, other_of: Callable[[Booth], Other], caplog: pytest.LogCaptureFixture
 ) -> None:
+    booth = make_booth(settings=TINY)
+    other = other_of(booth)
     booth.start_game()
     booth.settle()
     other.hold()
@@ -313,7 +317,7 @@ def test_options_that_are_ticked_before_the_first_is_stored_are_all_kept(booth: 
 def test_a_rehearsal_on_virtual_time_stands_still_meanwhile_so_that_its_record_is_the_same(
     make_booth: MakeBooth, other_of: Callable[[Booth], Other]
 ) -> None:
-    plain, disturbed = (make_booth(settings=BRIEF, opened=partial(Recorder, wait_ms=10)) for _ in range(2))
+    plain, disturbed = (make_booth(settings=TINY, opened=partial(Recorder, wait_ms=10)) for _ in range(2))
     plain.rehearse(seed=1)
     other, held = other_of(disturbed), list[WorldEvent]()
     rehearsal = Rehearsal(disturbed.app, 1)

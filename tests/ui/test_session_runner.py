@@ -10,6 +10,7 @@ import pytest
 from PySide6.QtCore import Qt
 
 from kiosk import StorageError
+from kiosk.config import Settings
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import Event
 from kiosk.experiment.outcomes import Stage, Status
@@ -20,7 +21,8 @@ from kiosk.ui.disk_writer import DiskWriter
 from kiosk.ui.session_runner import ERROR_SCREEN_MS
 from kiosk.ui.window import RunMode
 from tests.ui.conftest import Booth, MakeBooth
-from tests.ui.headless import BRIEF, HALF, SMALL, TINY, short
+from tests.ui.headless import HALF, TINY, short
+from tests.ui.visiting import PAIR, go_on_to_the_end, go_to
 
 T = TypeVar("T")
 
@@ -83,7 +85,7 @@ def test_a_fault_of_ours_shows_a_calm_screen_and_goes_into_the_log(
 
 
 def test_markers_name_every_event_that_is_stored_and_none_before_consent(make_booth: MakeBooth) -> None:
-    booth = make_booth(settings=SMALL)
+    booth = make_booth(settings=Settings.model_validate({"questionnaires": ["trust"], **PAIR}))
     sent: list[Event] = []
     participants = set[str]()
 
@@ -94,7 +96,8 @@ def test_markers_name_every_event_that_is_stored_and_none_before_consent(make_bo
         sent.extend(events)
 
     booth.app.runner.on_recorded = note
-    booth.rehearse(seed=1)
+    go_to(booth.app, Stage.THANKS)
+    go_on_to_the_end(booth.app)
     with open_repository(booth.data) as stored:
         every = list(stored.events(1))
     assert sent == every[-len(sent) :]
@@ -167,14 +170,14 @@ def test_a_word_from_the_last_session_changes_nothing_in_the_next(booth: Booth) 
 
 
 def test_nothing_of_one_visitor_is_left_for_the_next(make_booth: MakeBooth) -> None:
-    booth = make_booth(settings=BRIEF)
+    booth = make_booth(settings=TINY)
     booth.rehearse(seed=1)
     booth.start_game()
     board = booth.app.screens.board
-    assert len(board.closed) == 12
+    assert len(board.closed) == 6
     assert board.unmatched == {}
     assert board.highlighted == (None, None)
-    assert str(board.property("progress")) == "0 of 6 pairs"
+    assert str(board.property("progress")) == "0 of 3 pairs"
     assert str(board.property("moves")) == "0 moves"
 
 
@@ -310,7 +313,10 @@ def test_a_page_is_filled_in_one_step_and_shown_in_the_next(booth: Booth, closed
 
 
 @pytest.mark.parametrize("dropped", [False, True], ids=["the session ends", "the session is dropped meanwhile"])
-def test_the_pages_are_cleared_in_one_step_and_the_start_screen_comes_in_the_next(booth: Booth, dropped: bool) -> None:  # noqa: FBT001 - a parameter
+def test_the_pages_are_cleared_in_one_step_and_the_start_screen_comes_in_the_next(
+    make_booth: MakeBooth, *, dropped: bool
+) -> None:
+    booth = make_booth(settings=TINY)
     steps: list[Callable[[], None]] = []
     runner = booth.app.runner
     runner.later = lambda step: steps.append(step) if runner.stage is Stage.OVER else step()
