@@ -37,20 +37,20 @@ Item {
         width: words.width
         textFormat: Text.PlainText
         text: words.text
-        font.pixelSize: Theme.size(bubble.calls ? 50 : bubble.grows && larger.lineCount <= 2 ? 40 : 36)
+        font.pixelSize: Theme.size(bubble.calls ? 50 : bubble.grows ? (larger.lineCount <= 2 ? 40 : large.lineCount <= 2 ? 36 : 33) : 36)
         lineHeight: words.lineHeight
         wrapMode: Text.Wrap
     }
     // The same in large words, where there is room for two lines of them.
-    Text {
-        id: larger
+    component Trial: Text {
         visible: false
         width: words.width
         textFormat: Text.PlainText
         text: bubble.grows ? words.text : ""
-        font.pixelSize: Theme.size(40)
         wrapMode: Text.Wrap
     }
+    Trial { id: larger; font.pixelSize: Theme.size(40) }
+    Trial { id: large; font.pixelSize: Theme.size(36) }
     Rectangle {
         id: box
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom; bottomMargin: bubble.tail }
