@@ -5,11 +5,11 @@ Colours are compared as WCAG 2.2 does it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QObject, QPointF, QRect, QRectF, QSizeF
+from PySide6.QtCore import QObject, QPointF, QRect, QRectF, QSizeF, Qt
 from PySide6.QtGui import QAccessible, QAccessibleInterface, QColor, QImage
 from PySide6.QtQml import QQmlComponent, QQmlEngine, QQmlProperty, qmlContext
 from PySide6.QtQuick import QQuickItem, QQuickWindow
@@ -33,15 +33,22 @@ Light = NDArray[np.float64]
 
 def items(item: QQuickItem) -> Iterator[QQuickItem]:
     """Every item that is to be seen, from the outermost to the innermost."""
-    if item.isVisible() and item.opacity() > 0:
-        yield item
-        for child in item.childItems():
-            yield from items(child)
+    left = [item]
+    while left:
+        found = left.pop()
+        if found.isVisible() and found.opacity() > 0:
+            yield found
+            left += reversed(found.childItems())
 
 
 def texts(item: QQuickItem) -> Iterator[QQuickItem]:
     """Every text that is to be seen, with something to read."""
-    return (found for found in items(item) if found.inherits("QQuickText") and str(found.property("text")).strip())
+    return (found for found in items(item) if is_text(found))
+
+
+def is_text(item: QQuickItem) -> bool:
+    """Whether it is a text with something to read."""
+    return item.inherits("QQuickText") and bool(str(item.property("text")).strip())
 
 
 def lies_in(item: QQuickItem, *kinds: str) -> bool:
@@ -67,8 +74,13 @@ def is_control(item: QQuickItem) -> bool:
     if item.property("activeFocusOnTab") or item.inherits("QQuickAbstractButton") or item.inherits("QQuickMouseArea"):
         return True
     # To touch the ground of a form is to have done with typing, which every other key and control is as well. Its
-    # children are asked for last: Qt for Python makes an object for each of them.
-    return item.objectName() != "ground" and any(child.inherits(kind) for child in item.children() for kind in HANDLERS)
+    # children are asked for last, as Qt for Python makes an object for each of them; an item with a handler among them
+    # takes buttons of a mouse.
+    return (
+        item.acceptedMouseButtons() != Qt.MouseButton.NoButton
+        and item.objectName() != "ground"
+        and any(child.inherits(kind) for child in item.children() for kind in HANDLERS)
+    )
 
 
 def place(item: QQuickItem) -> QRect:
@@ -120,17 +132,17 @@ def identity(thing: QObject) -> int:
     return int(Shiboken.getCppPointer(thing)[0])
 
 
-def controls(window: QQuickWindow) -> set[int]:
+def controls(shown: Iterable[QQuickItem]) -> set[int]:
     """Return which items are controls; each is looked at closely, so it is done once for a screen."""
-    return {identity(item) for item in items(window.contentItem()) if is_control(item)}
+    return {identity(item) for item in shown if is_control(item)}
 
 
-def untold(window: QQuickWindow, controlling: set[int]) -> list[str]:
+def untold(window: QQuickWindow, shown: Iterable[QQuickItem], controlling: set[int]) -> list[str]:
     """Return what a person who cannot see the window would miss: controls without a role or name, and texts."""
     reached = announced(window)
     return [
         f"{item.objectName() or item.metaObject().className()} {item.property('text') or ''}"
-        for item in items(window.contentItem())
+        for item in shown
         if not _is_told(item, reached, controlling)
     ]
 
@@ -141,7 +153,7 @@ def _is_told(item: QQuickItem, reached: set[int], controlling: set[int]) -> bool
         return (
             role not in (QAccessible.Role.NoRole, QAccessible.Role.Client) and bool(name) and identity(item) in reached
         )
-    if not (item.inherits("QQuickText") and str(item.property("text")).strip()) or is_ignored(item):
+    if not is_text(item) or is_ignored(item):
         return True
     return (bool(described(item)[1]) and identity(item) in reached) or _is_in_a_named_control(
         item, reached & controlling

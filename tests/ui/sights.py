@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QRect
 from PySide6.QtGui import QImage
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 
-from kiosk.ui.simulated_visitor import find_item
 from tests.ui.looking import (
     EXPERIMENTERS,
     background,
     contrast,
     controls,
     identity,
+    is_text,
     items,
     lies_in,
     painted,
     place,
-    texts,
     untold,
 )
 
@@ -57,36 +56,43 @@ class Sight:
 def look(window: QQuickWindow, moment: str, side: str) -> Sight:
     """Look closely at what stands there."""
     picture = window.grabWindow()
-    controlling = controls(window)
-    over = [item for item in items(window.contentItem()) if _covers(item)]
-    bars = _bars(window)
-    shown = [text for text in texts(window.contentItem()) if _is_in_front(window, text, over)]
+    every = list(items(window.contentItem()))
+    controlling = controls(every)
+    bars = _bars(every)
+    shown = [text for text in every if is_text(text)]
+    in_front = _in_front(shown, [item for item in every if _covers(item)])
     share = ATTRACT_SHARE if moment.startswith("attract") else BOARD_SHARE
     return Sight(
         moment,
-        tuple(untold(window, controlling)),
-        tuple(_written(picture, text) for text in shown if not painted(text).isEmpty()),
-        tuple(_name(item) for item in _laid_out(window, controlling) if _is_astray(window, item, side, share)),
-        tuple(_name(text) for text in shown if any(bar.intersects(painted(text)) for bar in bars)),
+        tuple(untold(window, every, controlling)),
+        tuple(_written(picture, text) for text in in_front if not painted(text).isEmpty()),
+        tuple(_name(item) for item in _laid_out(every, controlling) if _is_astray(window, item, side, share)),
+        tuple(_name(text) for text in in_front if any(bar.intersects(painted(text)) for bar in bars)),
     )
 
 
-def _is_in_front(window: QQuickWindow, text: QQuickItem, over: Sequence[QQuickItem]) -> bool:
-    """Whether nothing lies over a text: the rest steps back by intent."""
-    if any(item.objectName() == "panel" or lies_in(item, "CalmCard") for item in over):
-        return lies_in(text, *OVER_EVERYTHING) and not _is_below_a_card(window, text)
-    return lies_in(text, *OVER_EVERYTHING) or not any(place(item).intersects(painted(text)) for item in over)
+def _in_front(shown: Sequence[QQuickItem], over: Sequence[QQuickItem]) -> list[QQuickItem]:
+    """Return the texts over which nothing lies: the rest steps back by intent."""
+    covered = [place(item) for item in over]
+    if not any(item.objectName() == "panel" or lies_in(item, "CalmCard") for item in over):
+        return [
+            text
+            for text in shown
+            if lies_in(text, *OVER_EVERYTHING) or not any(each.intersects(painted(text)) for each in covered)
+        ]
+    card = next((place(item) for item in over if item.objectName() == "pin-card"), None)
+    return [
+        text
+        for text in shown
+        if lies_in(text, *OVER_EVERYTHING)
+        and (card is None or lies_in(text, "PinCard") or not card.intersects(painted(text)))
+    ]
 
 
 def _covers(item: QQuickItem) -> bool:
     return item.objectName() in {"panel", "pin-card", "experimenter-note"} or (
         item.metaObject().className().startswith("CalmCard")
     )
-
-
-def _is_below_a_card(window: QQuickWindow, text: QQuickItem) -> bool:
-    card = find_item(window.contentItem(), "pin-card")
-    return card is not None and not lies_in(text, "PinCard") and place(card).intersects(painted(text))
 
 
 def _written(picture: QImage, text: QQuickItem) -> Written:
@@ -99,21 +105,17 @@ def _written(picture: QImage, text: QQuickItem) -> Written:
     )
 
 
-def _laid_out(window: QQuickWindow, controlling: set[int]) -> Iterator[QQuickItem]:
+def _laid_out(every: Iterable[QQuickItem], controlling: set[int]) -> Iterator[QQuickItem]:
     """Yield the texts and controls of a visitor's screen, and the assistant's bubble."""
-    for item in items(window.contentItem()):
+    for item in every:
         if (item.inherits("QQuickText") or identity(item) in controlling) and not lies_in(item, *OVER_EVERYTHING):
             yield item
 
 
-def _bars(window: QQuickWindow) -> list[QRect]:
+def _bars(every: Sequence[QQuickItem]) -> list[QRect]:
     """Return where the bars are that can be seen; a number's keys stand over the page, and over its bar."""
-    found = [place(item) for item in items(window.contentItem()) if item.inherits("QQuickScrollBar")]
-    keys = [
-        place(item)
-        for item in items(window.contentItem())
-        if item.metaObject().className().startswith("ScreenKeyboard")
-    ]
+    found = [place(item) for item in every if item.inherits("QQuickScrollBar")]
+    keys = [place(item) for item in every if item.metaObject().className().startswith("ScreenKeyboard")]
     return [bar for bar in found if not any(over.contains(bar.center()) for over in keys)]
 
 
