@@ -166,7 +166,7 @@ FocusScope {
     }
     PlainText {
         id: progress
-        x: !view.practises ? (view.broad ? Theme.gap : view.upright ? view.headLeft : table.x) : view.broad ? Theme.gap : practice.x + practice.width + Theme.gap
+        x: !view.practises ? (view.broad ? Theme.gap : view.upright ? view.headLeft : view.cardsBegin) : view.broad ? Theme.gap : practice.x + practice.width + Theme.gap
         y: !view.broad ? view.wordsAt : view.practises ? practice.y + practice.height + 0.7 * Theme.gap : table.y
         width: view.broad ? view.side - Theme.gap : implicitWidth
         height: view.broad ? implicitHeight : view.wordsHigh
@@ -198,7 +198,7 @@ FocusScope {
         y: view.broad ? table.y : view.upright ? view.wordsAt + view.wordsLine + view.loose : 12 * Theme.unit
         width: view.broad ? view.side - Theme.gap : view.upright ? view.headRight - view.headLeft : Math.max(0, end - x - Theme.gap)
         // Its shelf ends with the cards.
-        readonly property real end: !view.practises ? view.cardsEnd + Theme.gap - 8 * Theme.unit : view.skipsBelow ? view.width : skip.x
+        readonly property real end: !view.practises ? view.cardsEnd + Theme.gap - 5 * Theme.unit : view.skipsBelow ? view.width : skip.x
         height: view.broad ? table.height : view.upright ? view.lines * view.shelfSlot : view.strip - 8 * Theme.unit
         places: view.pairs
         spreads: view.upright
@@ -260,7 +260,7 @@ FocusScope {
         most: view.broad ? view.side - Theme.gap : view.width - 2 * Theme.gap
         x: view.broad ? Theme.gap : view.skipsBelow ? cards.x + (cards.width - width) / 2
          : practice.heads ? view.headRight - width
-         : view.above <= table.x + table.width ? table.x + (1 + view.share) / 2 * view.cell + (view.columns - 1) * view.cell - width
+         : view.above <= table.x + table.width ? view.cardsEnd - width
          : view.width - width - Theme.gap
         y: view.broad ? table.y + table.height - height
          : view.skipsBelow ? view.height - height - Theme.gap : view.wordsAt + (view.wordsHigh - height) / 2
