@@ -14,11 +14,18 @@ from kiosk.experiment.events import Timer
 from kiosk.game import Position
 from kiosk.robots.audio import TARGET_LUFS, Clip, loudness_lufs
 from kiosk.ui.renderer import SoundEffect, sound_for
+from kiosk.ui.window import RunMode
 from tests.ui.conftest import MakeBooth
-from tests.ui.headless import BRIEF, short
+from tests.ui.headless import HALF, short
 
 HERE = Position(0, 0)
 TURN = do.RevealCard(HERE, "owl")
+
+
+@pytest.fixture
+def run_mode() -> RunMode:
+    """Return a mode in which sessions are drawn faster: nothing here is about how they look."""
+    return HALF
 
 
 @pytest.mark.parametrize(
@@ -72,9 +79,9 @@ def test_every_sound_is_the_one_that_its_notes_make(sound: SoundEffect, made: di
 def test_a_game_is_heard_unless_sounds_are_off(make_booth: MakeBooth, monkeypatch: pytest.MonkeyPatch) -> None:
     heard: list[str] = []
     monkeypatch.setattr("kiosk.ui.voice.SilentVoice.play", lambda _, file: heard.append(file.stem))
-    make_booth(settings=short(voice={"sounds": False}, game={"rows": 2, "columns": 3})).rehearse(seed=1)
+    make_booth(settings=short(voice={"sounds": False}, game={"rows": 1, "columns": 2})).rehearse(seed=1)
     assert heard == []
-    make_booth(settings=BRIEF).rehearse(seed=1)
+    make_booth(settings=short(game={"rows": 2, "columns": 4})).rehearse(seed=1)
     assert heard[0] == "button"
     assert heard.count("end") == 1
     assert {"button", "flip", "match", "miss", "end"} <= set(heard)
