@@ -65,7 +65,7 @@ def study_of(settings: Settings) -> StudyConfig:
 
 @contextmanager
 def headless(  # noqa: PLR0913 - all that a kiosk can differ in
-    settings: Settings,
+    settings: Settings | StudyConfig,
     data: Path,
     *,
     seed: int = 1,
@@ -79,7 +79,7 @@ def headless(  # noqa: PLR0913 - all that a kiosk can differ in
 
     ``opened`` gives the recorder of a data folder.
     """
-    study = study_of(settings)
+    study = study_of(settings) if isinstance(settings, Settings) else settings
     fixed = Condition.from_name(condition) if condition else None
     origin = RunContext("a test", kind=kind, seed=lambda: seed, condition=fixed)
     with opened(data) as recorder, App(mode, recorder, ConditionAssigner(study, recorder, origin), robot) as app:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from functools import cache
 from pathlib import Path
 from tempfile import mkdtemp
 from typing import Any
@@ -19,8 +20,10 @@ from kiosk.config import Settings
 from kiosk.experiment.events import WorldEvent
 from kiosk.experiment.experimenter import SALT_BYTES, Action, hash_pin
 from kiosk.experiment.outcomes import Stage
+from kiosk.experiment.session_config import StudyConfig
 from kiosk.robots.driver import RobotDriver
 from kiosk.store.database import open_for_reading
+from kiosk.study.loader import read_study
 from kiosk.ui.app import App
 from kiosk.ui.experimenter.view_model import AuthorisationStep, CardScreen, NoteScreen, PanelScreen
 from tests.ui.conftest import Booth
@@ -132,6 +135,12 @@ class Witness:
         return any(isinstance(event, kind) for event in self.events)
 
 
+@cache
+def _read(sections: str) -> StudyConfig:
+    """Return the study of these sections, read once for all tests that have the same."""
+    return read_study(Settings.model_validate_json(sections))
+
+
 MakeDesk = Callable[..., Desk]
 
 
@@ -145,8 +154,8 @@ def make_assigner(qtbot: QtBot, tmp_path: Path) -> Iterator[MakeDesk]:
             given = {"experimenter": {"pin_hash": LINE}, "randomisation": {"target_n": {}}, **PAIR, **sections}
             stack = built.enter_context(ExitStack())
             condition = None if "randomisation" in sections else "tom"
-            settings = Settings.model_validate(given)
-            app = stack.enter_context(headless(settings, folder, condition=condition, mode=HALF, robot=device))
+            study = _read(json.dumps(given))
+            app = stack.enter_context(headless(study, folder, condition=condition, mode=HALF, robot=device))
             qtbot.waitUntil(lambda: app.window.isExposed() and app.window.isActive())
             assigner = Desk(app, folder)
             assigner.close = stack.close

@@ -65,7 +65,10 @@ def test_an_alarm_sounds_once_is_marked_without_words_and_read_in_the_panel(assi
     assert heard == [SoundEffect.ALARM.value]
 
 
-def test_during_a_session_the_sound_waits_for_its_end_and_the_mark_does_not(assigner: Desk, heard: list[str]) -> None:
+def test_during_a_session_the_sound_waits_for_its_end_and_the_mark_does_not(
+    make_assigner: MakeDesk, heard: list[str]
+) -> None:
+    assigner = make_assigner(stages=["practice", "game"])
     assigner.go_to(Stage.PRACTICE)
     heard.clear()
     fill_disk(assigner)
@@ -82,7 +85,7 @@ def test_a_study_decides_when_alarms_sound(
     make_assigner: MakeDesk, heard: list[str], setting: str, expected: list[str]
 ) -> None:
 
-    desk = make_assigner(experimenter={"pin_hash": LINE, "alarm_sound": setting})
+    desk = make_assigner(experimenter={"pin_hash": LINE, "alarm_sound": setting}, stages=["practice", "game"])
     desk.go_to(Stage.PRACTICE)
     heard.clear()
     fill_disk(desk)

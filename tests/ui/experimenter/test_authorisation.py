@@ -189,7 +189,8 @@ def test_an_attempt_that_is_cut_off_with_the_kiosk_counts(
     assert [body["in_a_row"] for body in refusals(again)] == [2]
 
 
-def test_the_card_goes_away_when_nobody_answers_and_the_session_has_gone_on_meanwhile(assigner: Desk) -> None:
+def test_the_card_goes_away_when_nobody_answers_and_the_session_has_gone_on_meanwhile(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(stages=["practice", "game"])
     assert isinstance(assigner.app.clock, VirtualClock)
     assigner.go_to(Stage.PRACTICE)
     witness = Witness(assigner.app)
@@ -296,7 +297,8 @@ def test_without_a_pin_nothing_is_asked_but_the_reason(make_assigner: MakeDesk) 
     ]
 
 
-def test_a_action_that_the_session_has_outrun_is_refused(assigner: Desk) -> None:
+def test_a_action_that_the_session_has_outrun_is_refused(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(stages=["game", "thanks"])
     assigner.go_to(Stage.THANKS)
     assigner.shortcut(Action.ABORT)
     assigner.unlock()

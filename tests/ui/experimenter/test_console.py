@@ -75,7 +75,8 @@ def test_every_language_says_everything_of_the_panel() -> None:
         assert [word for word in WORDS if word not in catalogue] == []
 
 
-def test_a_session_waits_while_the_panel_is_open_and_goes_on_when_it_is_closed(assigner: Desk) -> None:
+def test_a_session_waits_while_the_panel_is_open_and_goes_on_when_it_is_closed(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(stages=["practice", "game"])
     assigner.go_to(Stage.PRACTICE)
     witness = Witness(assigner.app)
     assigner.open_panel()
@@ -86,7 +87,8 @@ def test_a_session_waits_while_the_panel_is_open_and_goes_on_when_it_is_closed(a
     assert assigner.stage is Stage.PRACTICE
 
 
-def test_a_session_that_was_paused_before_stays_so(assigner: Desk) -> None:
+def test_a_session_that_was_paused_before_stays_so(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(stages=["practice", "game"])
     assigner.go_to(Stage.PRACTICE)
     assigner.do(Action.PAUSE)
     assigner.open_panel()
@@ -94,7 +96,8 @@ def test_a_session_that_was_paused_before_stays_so(assigner: Desk) -> None:
     assert assigner.app.screens.kiosk.property("paused")
 
 
-def test_a_session_can_be_left_paused_from_within_the_panel(assigner: Desk) -> None:
+def test_a_session_can_be_left_paused_from_within_the_panel(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(stages=["practice", "game"])
     assigner.go_to(Stage.PRACTICE)
     assigner.open_panel()
     assert not assigner.item("action-pause").property("checked")
@@ -111,7 +114,8 @@ def times(minutes: int) -> set[str]:
     return {f"{now + timedelta(seconds=off):%H:%M}" for off in (0, -60)}
 
 
-def test_a_pause_says_when_it_goes_on_and_is_no_longer_than_the_session_allows(assigner: Desk) -> None:
+def test_a_pause_says_when_it_goes_on_and_is_no_longer_than_the_session_allows(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(stages=["practice", "game"])
     kiosk = assigner.app.screens.kiosk
     assigner.go_to(Stage.PRACTICE)
     witness = Witness(assigner.app)
@@ -130,7 +134,8 @@ def test_a_pause_says_when_it_goes_on_and_is_no_longer_than_the_session_allows(a
     assert [type(event) for event in witness.events] == [happened.PauseRequested, happened.PauseEnded]
 
 
-def test_a_session_that_is_to_go_on_after_all_says_no_time(assigner: Desk) -> None:
+def test_a_session_that_is_to_go_on_after_all_says_no_time(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(stages=["practice", "game"])
     assigner.go_to(Stage.PRACTICE)
     assigner.open_panel()
     assigner.click("break-5")
@@ -268,7 +273,8 @@ def test_counts_stand_against_the_quotas_and_the_last_sessions_tell_how_they_end
     assert shows(assigner.app.window.contentItem(), "of quota")
 
 
-def test_without_a_list_the_panel_counts_sessions_begun_and_has_no_quota(assigner: Desk) -> None:
+def test_without_a_list_the_panel_counts_sessions_begun_and_has_no_quota(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(stages=["game"])
     assigner.go_to(Stage.GAME)
     assigner.open_panel()
     assigner.wait_until(lambda: bool(records(assigner)["cells"]))
@@ -279,7 +285,7 @@ def test_without_a_list_the_panel_counts_sessions_begun_and_has_no_quota(assigne
 
 
 def test_the_condition_of_the_session_under_way_is_not_told(make_assigner: MakeDesk) -> None:
-    assigner = make_assigner(**LISTED)
+    assigner = make_assigner(**LISTED, stages=["game"])
     assigner.go_to(Stage.GAME)
     assigner.open_panel()
     assigner.wait_until(lambda: bool(records(assigner)["sessions"]))
@@ -290,7 +296,7 @@ def test_the_condition_of_the_session_under_way_is_not_told(make_assigner: MakeD
 
 @pytest.mark.parametrize("stage", [Stage.CONSENT, Stage.GAME])
 def test_while_somebody_plays_no_condition_is_told_of_anybody(make_assigner: MakeDesk, stage: Stage) -> None:
-    assigner = make_assigner(**LISTED)
+    assigner = make_assigner(**LISTED, stages=["consent", "game"])
     assigner.app.assigner.choose(Condition.NOTOM, "test run")
     assigner.go_to(stage)
     assigner.open_panel()
@@ -343,11 +349,14 @@ def test_a_voice_that_is_lost_is_written_down_and_shown_among_the_days_events(as
     )
 
 
+STAGES = ["game", "questions"]
+
+
 def test_a_session_that_was_cut_off_goes_on_from_the_start_of_its_stage(make_assigner: MakeDesk) -> None:
-    assigner = make_assigner()
+    assigner = make_assigner(stages=STAGES)
     assigner.go_to(Stage.QUESTIONS)
     assigner.close()
-    again = make_assigner(data=assigner.data)
+    again = make_assigner(data=assigner.data, stages=STAGES)
     again.open_panel()
     again.wait_until(lambda: bool(records(again)["resumable"]))
     (cut_off,) = records(again)["resumable"]
@@ -364,10 +373,10 @@ def test_a_session_that_was_cut_off_goes_on_from_the_start_of_its_stage(make_ass
 
 def cut_off(make_assigner: MakeDesk) -> Desk:
     """Return a booth whose panel offers to go on with a session."""
-    assigner = make_assigner()
+    assigner = make_assigner(stages=STAGES)
     assigner.go_to(Stage.QUESTIONS)
     assigner.close()
-    again = make_assigner(data=assigner.data)
+    again = make_assigner(data=assigner.data, stages=STAGES)
     again.open_panel()
     again.wait_until(lambda: bool(records(again)["resumable"]))
     return again
@@ -415,10 +424,10 @@ def test_a_session_does_not_go_on_where_that_cannot_be_noted_and_can_once_it_can
 
 
 def test_a_session_that_was_cut_off_in_the_game_cannot_go_on(make_assigner: MakeDesk) -> None:
-    assigner = make_assigner()
+    assigner = make_assigner(stages=["game"])
     assigner.go_to(Stage.GAME)
     assigner.close()
-    again = make_assigner(data=assigner.data)
+    again = make_assigner(data=assigner.data, stages=["game"])
     again.open_panel()
     again.wait_until(lambda: bool(records(again)["sessions"]))
     assert records(again)["sessions"][0]["status"] == Status.INTERRUPTED.value
@@ -469,7 +478,7 @@ def test_visitors_see_neither_panel_nor_card_while_nobody_asks_for_them(assigner
 
 
 def test_conditions_are_named_only_on_request_and_by_letters_again_at_the_next_opening(make_assigner: MakeDesk) -> None:
-    assigner = make_assigner(**LISTED)
+    assigner = make_assigner(**LISTED, stages=["game"])
     assigner.go_to(Stage.GAME)
     assigner.open_panel()
     assigner.wait_until(lambda: bool(records(assigner)["cells"]))

@@ -15,7 +15,7 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from kiosk.config import Settings
+from kiosk.config import STAGES, Settings
 from kiosk.experiment.experimenter import Action
 from kiosk.experiment.outcomes import Stage
 from kiosk.study.loader import read_study
@@ -44,11 +44,18 @@ WAYS_OUT = [
 """What leaves programs elsewhere, and the kiosk's own shortcuts."""
 
 
+def desk_in(stage: Stage, make_assigner: MakeDesk) -> Desk:
+    """Return a booth with a visitor in this stage; a session there has no other but the game."""
+    assigner = make_assigner(stages=[name for name in STAGES if name in {"game", stage.value}])
+    assigner.go_to(stage)
+    return assigner
+
+
 @pytest.mark.parametrize("stage", [Stage.ATTRACT, Stage.CONSENT, Stage.GAME, Stage.THANKS, Stage.OVER])
 def test_with_a_pin_no_key_leaves_the_kiosk_or_opens_the_panel(
-    stage: Stage, assigner: Desk, monkeypatch: pytest.MonkeyPatch
+    stage: Stage, make_assigner: MakeDesk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assigner.go_to(stage)
+    assigner = desk_in(stage, make_assigner)
     left: list[str] = []
     monkeypatch.setattr(assigner.app._loop, "quit", lambda: left.append("left"))
     for key, modifiers in WAYS_OUT:
@@ -74,8 +81,7 @@ def test_nothing_is_said_by_qml_when_the_kiosk_is_left(
     make_assigner: MakeDesk,
     qtlog: Any,
 ) -> None:
-    assigner = make_assigner()
-    assigner.go_to(stage)
+    assigner = desk_in(stage, make_assigner)
     if panel:
         assigner.open_panel()
     assigner.do(Action.QUIT)

@@ -19,7 +19,7 @@ from kiosk.store.maintenance import FOLDER, FreeSpace
 from kiosk.ui.event_loop import Executor, InlineExecutor, VirtualClock
 from kiosk.ui.experimenter.maintenance import BEAT_MS, MaintenanceScheduler, MaintenanceTasks
 from kiosk.units import MS_PER_MINUTE
-from tests.ui.experimenter.conftest import Desk
+from tests.ui.experimenter.conftest import Desk, MakeDesk
 
 EVERY = 10
 """Minutes between two copies."""
@@ -216,7 +216,8 @@ def test_a_disk_that_nobody_can_look_at_stops_nobody(caplog: pytest.LogCaptureFi
     assert "cannot be told" in caplog.text
 
 
-def test_in_the_kiosk_no_room_ends_no_session_but_the_next_one_cannot_begin(assigner: Desk) -> None:
+def test_in_the_kiosk_no_room_ends_no_session_but_the_next_one_cannot_begin(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(stages=["practice", "game", "thanks"])
     assigner.go_to(Stage.PRACTICE)
     assigner.app.runner.set_closed(shut=True)
     assert assigner.screen == "practice"

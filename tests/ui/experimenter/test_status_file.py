@@ -15,7 +15,7 @@ from kiosk.store.snapshot import read_day
 from kiosk.ui.event_loop import InlineExecutor, VirtualClock
 from kiosk.ui.experimenter.status import StatusFile, write_status
 from tests.samples import STATUS
-from tests.ui.experimenter.conftest import Desk
+from tests.ui.experimenter.conftest import MakeDesk
 
 DAY = (DayCounts(begun=3, completed=1, ended_early=1, last_hour=1), (EndedSession(utc(0), "aborted", "game"),))
 
@@ -105,7 +105,8 @@ def test_another_file_is_refused(text: str) -> None:
         BoothStatus.from_json(text)
 
 
-def test_a_booth_tells_its_stage_and_parts_and_nothing_of_the_condition(assigner: Desk) -> None:
+def test_a_booth_tells_its_stage_and_parts_and_nothing_of_the_condition(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(stages=["game"])
     assigner.go_to(Stage.GAME)
     assigner.app.experimenter.status_file.begin()
     file = assigner.data / FILE
@@ -116,7 +117,8 @@ def test_a_booth_tells_its_stage_and_parts_and_nothing_of_the_condition(assigner
     assert not any(word in words for word in ("tom", "condition", "code"))
 
 
-def test_the_sessions_of_today_are_counted_and_those_of_yesterday_are_not(assigner: Desk) -> None:
+def test_the_sessions_of_today_are_counted_and_those_of_yesterday_are_not(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(stages=["game"])
     assigner.go_to(Stage.GAME)
     now = datetime.now().astimezone()
     counts, ended = read_day(assigner.data, now, kind=SessionKind.SIMULATED)
