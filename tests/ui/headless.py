@@ -49,7 +49,13 @@ TINY = short(game={"rows": 2, "columns": 3})
 PLAIN = short()
 """The same as the study file gives it."""
 
-_OFTEN = (PLAIN, BRIEF, TINY, SMALL)
+_OFTEN = [PLAIN, BRIEF, TINY, SMALL]
+
+
+def often(settings: Settings) -> Settings:
+    """Return these settings, whose study is then read only once."""
+    _OFTEN.append(settings)
+    return settings
 
 
 @cache

@@ -23,11 +23,15 @@ from kiosk.ui.rehearsal import resize
 from kiosk.ui.renderer import Renderer
 from kiosk.ui.simulated_visitor import find_item, item_centre, lay_out
 from kiosk.ui.window import ClockMode, RunMode, WindowMode
-from tests.ui.headless import headless
+from tests.ui.headless import headless, often
 from tests.ui.looking import is_ignored, items, lies_in, painted, place
 
-MOVING = RunMode(WindowMode.NOWHERE, ClockMode.WALL)
-QUIET = Settings.model_validate({"voice": {"enabled": False}})
+MOVING = RunMode(WindowMode.NOWHERE, ClockMode.WALL, size=(960, 540))
+QUIET = {
+    moves: often(Settings.model_validate({"voice": {"enabled": False}, "screen": {"motion": moves}}))
+    for moves in (True, False)
+}
+"""Without a voice, with and without motion."""
 LEFT, NO_KEY = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
 CAT = (Position(1, 1), Position(2, 3))
 
@@ -41,8 +45,7 @@ def moves(request: pytest.FixtureRequest) -> bool:
 @pytest.fixture
 def app(qapp: object, tmp_path: Path, moves: bool) -> Iterator[App]:  # noqa: ARG001, FBT001 - fixtures
     """Provide a kiosk in the middle of a game, which moves or stands still."""
-    settings = QUIET.model_copy(update={"screen": QUIET.screen.model_copy(update={"motion": moves})})
-    with headless(settings, tmp_path, mode=MOVING) as opened:
+    with headless(QUIET[moves], tmp_path, mode=MOVING) as opened:
         opened.screens.board.deal(4, 6, 12, "animals")
         opened.screens.kiosk.show("game")
         opened.screens.kiosk.end_input_guard()
@@ -479,7 +482,7 @@ def test_on_an_upright_screen_the_tray_is_as_wide_as_the_cards_with_their_rows_n
 @STILL
 @pytest.mark.parametrize("layout", ["wide", "upright"])
 def test_no_control_moves_when_a_sentence_can_be_heard_again(app: App, layout: str) -> None:
-    app.screens.kiosk.begin(["en"], "en", QUIET.consent)
+    app.screens.kiosk.begin(["en"], "en", QUIET[False].consent)
     resize(app.window, layout)
     lay_out(app.window)
     stop = find(app, "control-stop")
@@ -492,7 +495,7 @@ def test_no_control_moves_when_a_sentence_can_be_heard_again(app: App, layout: s
 
 @STILL
 def test_the_stop_button_is_in_the_corner_and_the_others_above_it_on_an_upright_screen(app: App) -> None:
-    app.screens.kiosk.begin(["en", "it"], "en", QUIET.consent)
+    app.screens.kiosk.begin(["en", "it"], "en", QUIET[False].consent)
     app.screens.avatar.say("Look at column 2.")
     resize(app.window, "upright")
     lay_out(app.window)
@@ -560,7 +563,7 @@ def test_behind_a_question_the_helper_is_calm(app: App) -> None:
 @STILL
 def test_dots_tell_how_far_a_visit_is(app: App) -> None:
     kiosk = app.screens.kiosk
-    kiosk.begin(["en"], "en", QUIET.consent)
+    kiosk.begin(["en"], "en", QUIET[False].consent)
     kiosk.reach("about")
     assert (kiosk.property("step"), kiosk.property("steps")) == (0, 5)
     kiosk.reach("questions")
