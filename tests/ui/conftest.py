@@ -29,7 +29,7 @@ from kiosk.ui.event_loop import VirtualClock
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import BehaviourProfile, UiDriver, find_item, item_centre, lay_out
 from kiosk.ui.window import RunMode, Window
-from tests.ui.headless import PLAIN, VIRTUAL, headless
+from tests.ui.headless import HALF, PLAIN, VIRTUAL, headless
 
 
 @pytest.fixture(scope="session")
@@ -161,6 +161,28 @@ def make_booth(qtbot: QtBot, tmp_path: Path, run_mode: RunMode) -> Iterator[Make
 def booth(make_booth: MakeBooth) -> Booth:
     """One booth in the condition ToM, with a short study."""
     return make_booth()
+
+
+@pytest.fixture(scope="module")
+def module_booth(qapp: QGuiApplication, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Booth]:
+    """Provide one booth for all tests of a module, in half the usual size: they show pages and begin no session."""
+    data = tmp_path_factory.mktemp("booth")
+    with headless(PLAIN, data, mode=HALF) as app:
+        while not (app.window.isExposed() and app.window.isActive()):
+            qapp.processEvents()
+        yield Booth(app, data)
+
+
+@pytest.fixture
+def resting_booth(module_booth: Booth, qtbot: QtBot) -> Booth:
+    """Return that booth, with nothing left of the test before."""
+    window, screens = module_booth.app.window, module_booth.app.screens
+    # The test before may have had another window.
+    window.requestActivate()
+    qtbot.waitUntil(window.isActive)
+    screens.clear()
+    screens.kiosk.show("attract")
+    return module_booth
 
 
 @pytest.fixture

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import pytest
 from PySide6.QtCore import QDeadlineTimer, Qt
 from PySide6.QtGui import QGuiApplication
@@ -16,7 +18,7 @@ from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.ui.screens.questionnaire import kept_together
 from kiosk.ui.simulated_visitor import UiDriver, find_item, item_centre
 from tests.samples import CATALOGUES
-from tests.ui.conftest import Booth
+from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.reaching import Finger
 
 ITEMS: dict[str, Item] = {
@@ -28,7 +30,13 @@ Given = list[tuple[str, object]]
 
 
 @pytest.fixture
-def given(booth: Booth) -> Given:
+def booth(resting_booth: Booth) -> Booth:
+    """Return the booth of all these tests, which begin no session."""
+    return resting_booth
+
+
+@pytest.fixture
+def given(booth: Booth) -> Iterator[Given]:
     """Return what the form reports, which is shown as the study would show it."""
     answers: Given = []
 
@@ -36,9 +44,11 @@ def given(booth: Booth) -> Given:
         answers.append((item, value))
         booth.app.screens.form.show_answer(item, value)
 
-    booth.app.screens.form.answered.connect(take)
-    booth.app.screens.form.continued.connect(lambda: answers.append(("", "continued")))
-    return answers
+    form = booth.app.screens.form
+    listening = form.answered.connect(take), form.continued.connect(lambda: answers.append(("", "continued")))
+    yield answers
+    form.answered.disconnect(listening[0])
+    form.continued.disconnect(listening[1])
 
 
 def exempt(booth: Booth) -> list[str]:
@@ -156,7 +166,7 @@ def test_items_that_come_by_what_was_typed_last_are_seen_before_the_page_goes(bo
     form, text, second = booth.app.screens.form, ITEMS["text"], ITEMS["likert"]
     form.show((text, second), 1, 1, (second.id,))
     booth.app.screens.kiosk.show("form")
-    form.answered.connect(lambda item, _: form.hide(()) if item == text.id else None)
+    hiding = form.answered.connect(lambda item, _: form.hide(()) if item == text.id else None)
     booth.settle()
     booth.click(f"text-{text.id}")
     UiDriver(booth.app.window).type("abc")
@@ -166,6 +176,7 @@ def test_items_that_come_by_what_was_typed_last_are_seen_before_the_page_goes(bo
     assert booth.sees(f"item-{second.id}")
     form.proceed()
     assert given[-1] == ("", "continued")
+    form.answered.disconnect(hiding)
 
 
 def test_a_digit_answers_the_next_item_after_one_that_does_not_apply(booth: Booth, given: Given) -> None:
@@ -277,11 +288,12 @@ def test_what_is_typed_is_sent_once_and_not_letter_by_letter(booth: Booth, given
 
 def test_whoever_types_is_told_to_be_there_every_few_letters_and_not_what(booth: Booth, given: Given) -> None:
     told: list[int] = []
-    booth.app.screens.form.typed.connect(lambda: told.append(len(given)))
+    counting = booth.app.screens.form.typed.connect(lambda: told.append(len(given)))
     ask(booth, ITEMS["text"])
     booth.click(f"text-{ITEMS['text'].id}")
     UiDriver(booth.app.window).type("twelve words")
     assert told == [0, 0]
+    booth.app.screens.form.typed.disconnect(counting)
 
 
 def test_what_is_typed_is_not_lost_when_the_visitor_goes_on_at_once(booth: Booth, given: Given) -> None:
@@ -317,11 +329,12 @@ def test_a_question_over_the_screen_does_not_take_a_half_typed_text_for_an_answe
 def test_a_text_that_was_refused_is_sent_again_with_the_way_on(booth: Booth) -> None:
     form, given = booth.app.screens.form, list[tuple[str, object]]()
     ask(booth, ITEMS["text"])
-    form.answered.connect(lambda item, value: given.append((item, value)))
+    listening = form.answered.connect(lambda item, value: given.append((item, value)))
     form.draft("remark", "once more")
     form.finish("remark")
     form.proceed()
     assert given == [("remark", "once more")] * 2
+    form.answered.disconnect(listening)
 
 
 @pytest.mark.usefixtures("given")
@@ -349,14 +362,7 @@ def test_the_way_on_waits_until_what_is_asked_is_answered_or_typed(booth: Booth)
     assert not booth.item("continue").property("waits")
 
 
-def small(booth: Booth, qtbot: QtBot) -> None:
-    """Make the window a small one."""
-    booth.app.window.resize(1280, 720)
-    qtbot.waitUntil(lambda: booth.app.window.contentItem().width() == 1280)
-
-
-def test_what_is_missing_is_said_in_words_and_brought_into_view(booth: Booth, qtbot: QtBot) -> None:
-    small(booth, qtbot)
+def test_what_is_missing_is_said_in_words_and_brought_into_view(booth: Booth) -> None:
     many = [required("likert").model_copy(update={"id": f"item{number}"}) for number in range(8)]
     ask(booth, *many)
     booth.app.screens.form.show_missing(("item7",))
@@ -369,8 +375,7 @@ def test_what_is_missing_is_said_in_words_and_brought_into_view(booth: Booth, qt
     assert not shown(booth, "item-item7", "Please answer this one first.")
 
 
-def test_a_long_page_scrolls_by_key_and_by_its_sign(booth: Booth, qtbot: QtBot) -> None:
-    small(booth, qtbot)
+def test_a_long_page_scrolls_by_key_and_by_its_sign(booth: Booth) -> None:
     ask(booth, *(ITEMS["likert"].model_copy(update={"id": f"item{number}"}) for number in range(8)))
     assert booth.item("more").isEnabled()
     first = booth.item("item-item0")
@@ -424,7 +429,8 @@ def test_the_keys_on_the_screen_come_for_a_touch_and_not_for_a_mouse(booth: Boot
     assert item_centre(booth.item("number-alone")) == place
 
 
-def test_five_options_of_a_wide_page_leave_no_empty_place(booth: Booth, qtbot: QtBot) -> None:
+def test_five_options_of_a_wide_page_leave_no_empty_place(make_booth: MakeBooth, qtbot: QtBot) -> None:
+    booth = make_booth()
     window = booth.app.window
     window.resize(1920, 1080)
     qtbot.waitUntil(lambda: window.contentItem().width() == 1920)
@@ -436,7 +442,10 @@ def test_five_options_of_a_wide_page_leave_no_empty_place(booth: Booth, qtbot: Q
     }
 
 
-def test_an_upright_screen_s_keys_take_the_helper_s_place_and_show_what_is_typed(booth: Booth, qtbot: QtBot) -> None:
+def test_an_upright_screen_s_keys_take_the_helper_s_place_and_show_what_is_typed(
+    make_booth: MakeBooth, qtbot: QtBot
+) -> None:
+    booth = make_booth()
     window = booth.app.window
     window.resize(1080, 1920)
     qtbot.waitUntil(lambda: window.contentItem().width() == 1080)

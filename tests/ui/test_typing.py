@@ -54,7 +54,13 @@ def whole_number(lowest: int, highest: int) -> Integer:
 
 
 @pytest.fixture
-def given(booth: Booth) -> Given:
+def booth(resting_booth: Booth) -> Booth:
+    """Return the booth of all these tests: only the last ones here begin a session, each in a booth of its own."""
+    return resting_booth
+
+
+@pytest.fixture
+def given(booth: Booth) -> Iterator[Given]:
     """Return what the form reports, which is shown as the study would show it."""
     answers: Given = []
 
@@ -62,8 +68,9 @@ def given(booth: Booth) -> Given:
         answers.append((item, value))
         booth.app.screens.form.show_answer(item, value)
 
-    booth.app.screens.form.answered.connect(take)
-    return answers
+    listening = booth.app.screens.form.answered.connect(take)
+    yield answers
+    booth.app.screens.form.answered.disconnect(listening)
 
 
 def contents(booth: Booth, name: str) -> str:
