@@ -426,6 +426,9 @@ def test_a_pair_keeps_its_size_until_another_card_is_turned(app: App) -> None:
     board.mark_matched(GONE)
     large = [find(app, f"card-{board.location(position)}") for position in GONE]
     assert [card.property("fresh") for card in large] == [1, 1]
+    for card, position in zip(large, GONE, strict=True):
+        # Two frames beside each other have some of the page between them.
+        assert find(app, f"found-{board.location(position)}").property("width") < 0.99 * card.property("width")
     board.reveal(Position(1, 0), "owl")
     assert [card.property("fresh") for card in large] == [0, 0]
 

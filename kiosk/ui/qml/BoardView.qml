@@ -68,6 +68,9 @@ FocusScope {
     readonly property real loose: upright ? Math.max(0, Math.min(24 * Theme.unit, (spare - apart) / 5)) : 0
     readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
         + Math.max(upright && Theme.textSize > 1.15 ? 18 * Theme.unit : 0, Math.min(apart + 5 * loose, spare))
+    // A pair that was just found has a frame of this thickness; frames of neighbours leave a clear strip between them.
+    readonly property real ring: Math.min(13 * Theme.unit, 0.05 * cell)
+    readonly property real framed: cell - 7 * Theme.unit
     // Where the cards themselves begin and end.
     readonly property real cardsBegin: table.x + margin * cell
     readonly property real cardsEnd: table.x + table.width - margin * cell
@@ -114,6 +117,11 @@ FocusScope {
     // How far the joy about that has run over the cards, from the first to the last.
     property real wave: 0
     NumberAnimation { id: sweep; target: view; property: "wave"; from: 0; to: 1; duration: 5 * Theme.motion }
+
+    // How much a card is scaled to have this width, and at most this.
+    function within(wide: real, most: real): real {
+        return Math.min(most, wide / Math.max(1, 0.962 * share * cell))
+    }
 
     function centre(location: int): point {
         return Qt.point(table.x + (location % columns + 0.5) * cell,
@@ -284,8 +292,8 @@ FocusScope {
             row: view.markRow
             column: view.markColumn
             cell: view.cell
-            arrow: (view.upright ? 18 : 24) * Theme.unit
-            apart: (view.upright ? 6 : 5) * Theme.unit
+            arrow: (view.upright ? 20 : 28) * Theme.unit
+            apart: (view.upright ? 4 : 5) * Theme.unit
         }
         Repeater {
             model: view.columns
@@ -363,6 +371,8 @@ FocusScope {
             readonly property bool marked: (view.markRow === row || view.markRow < 0)
                                            && (view.markColumn === column || view.markColumn < 0)
                                            && view.markRow + view.markColumn > -2
+            // A hint means this very card: its frame takes a little of its room where cards are close together.
+            readonly property bool meant: view.markRow === row && view.markColumn === column
             // A tap would change nothing: two cards are open, a sentence is said, or this one is up.
             readonly property bool refuses: !view.open || up
             readonly property bool missed: up && !found && view.missed
@@ -422,21 +432,22 @@ FocusScope {
             }
             onMissedChanged: if (missed && Theme.motion > 0) sigh.restart()
 
-            // A rim of light around the last pair, as wide as the gap to its neighbours.
+            // A rim of light around the last pair.
             Rectangle {
                 visible: place.proud > 0
                 anchors.centerIn: parent
-                width: 1.06 * parent.width * (1 + 0.09 * place.cheer)
+                width: view.framed * (1 + 0.09 * place.cheer)
                 height: width
                 opacity: place.proud
-                radius: width * 0.13
+                radius: width * 0.12
                 color: Theme.amber
             }
             Rectangle {
+                objectName: "found-" + place.index
                 visible: place.rest > 0
                 anchors.centerIn: parent
                 // By its size: corners that are drawn larger by a scale look ragged.
-                width: 0.9 * parent.width * (1 + 0.14 * place.large) * (1 + 0.09 * place.cheer)
+                width: (0.9 * parent.width * (1 - place.large) + (view.framed - 0.9 * view.ring * place.proud) * place.large) * (1 + 0.09 * place.cheer)
                 height: width
                 opacity: place.rest * place.frame
                 radius: width * 0.12
@@ -466,7 +477,7 @@ FocusScope {
                 // Closed cards step back while a tap would not count, unless they are meant.
                 opacity: view.speaking && !place.up && !place.marked ? Theme.held : 1
                 Behavior on opacity { NumberAnimation { duration: Theme.motion } }
-                scale: (tap.pressed ? 0.95 : 1) * (1 + 0.07 * lift) * (1 - 0.14 * place.rest + 0.15 * place.large) * (1 + 0.16 * place.forward) * (1 + 0.09 * place.cheer)
+                scale: (tap.pressed ? 0.95 : 1) * (place.meant ? view.within(view.cell - 28 * Theme.unit, 1) : 1) * (1 + 0.07 * lift) * (1 - 0.14 * place.rest + (view.within(view.framed - 2 * view.ring, 1.01) - 0.86) * place.large) * (1 + 0.16 * place.forward) * (1 + 0.09 * place.cheer)
             }
             // These two are no pair; in a while they close again.
             Rectangle {

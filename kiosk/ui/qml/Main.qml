@@ -407,7 +407,7 @@ Window {
         opacity: corner.opacity
         readonly property bool aside: root.wide && !root.whole
         // Beside the place of the button that comes and goes, so that they stay where they are.
-        x: !aside ? Theme.gap : corner.atLeft ? 2.2 * Theme.gap + corner.fullWidth : corner.x + corner.width - corner.fullWidth - 0.7 * Theme.gap - width
+        x: !aside ? Theme.gap : corner.atLeft ? 2.75 * Theme.gap + corner.fullWidth : corner.x + corner.width - corner.fullWidth - 1.75 * Theme.gap - width
         y: aside ? corner.y + (corner.step - corner.spacing - height) / 2 : root.room - height - Theme.gap
     }
     Feast {

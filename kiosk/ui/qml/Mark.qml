@@ -13,6 +13,7 @@ Item {
     required property real cell
     // How long an arrow is, and how far its point stays from the cards' places.
     property real arrow: 24 * Theme.unit
+    readonly property real breadth: 44 * Theme.unit
     property real apart: 5 * Theme.unit
 
     // Not named onRow and so on: QML would take such a name for a signal's handler.
@@ -21,16 +22,18 @@ Item {
     readonly property bool marksCard: row >= 0 && column >= 0
 
     component Arrow: Shape {
-        width: mark.arrow
-        height: 34 * Theme.unit
+        id: pointer
+        property real length: mark.arrow
+        width: length
+        height: mark.breadth
         ShapePath {
             fillColor: Theme.amber
             strokeColor: Theme.deepAmber
             strokeWidth: 3 * Theme.unit
             joinStyle: ShapePath.RoundJoin
             startX: 2 * Theme.unit; startY: 2 * Theme.unit
-            PathLine { x: mark.arrow - 2 * Theme.unit; y: 17 * Theme.unit }
-            PathLine { x: 2 * Theme.unit; y: 32 * Theme.unit }
+            PathLine { x: pointer.length - 2 * Theme.unit; y: mark.breadth / 2 }
+            PathLine { x: 2 * Theme.unit; y: mark.breadth - 2 * Theme.unit }
             PathLine { x: 2 * Theme.unit; y: 2 * Theme.unit }
         }
     }
@@ -61,7 +64,7 @@ Item {
         height: mark.cell
         radius: Theme.radius * 1.4
         color: Theme.amber
-        border { color: Theme.deepAmber; width: 6 * Theme.unit }
+        border { color: Theme.deepAmber; width: 4 * Theme.unit }
     }
     // Between a number and the cards.
     Arrow {
@@ -71,6 +74,8 @@ Item {
     }
     Arrow {
         visible: mark.column >= 0
+        // There is more room below a number than beside it.
+        length: Math.max(mark.arrow, 26 * Theme.unit)
         x: (mark.column + 0.5) * mark.cell - width / 2
         y: -(height + width) / 2 - mark.apart
         rotation: 90
