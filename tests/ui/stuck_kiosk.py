@@ -54,7 +54,7 @@ WRONG: dict[str, Callable[..., None]] = {
 
 if __name__ == "__main__":
     wrong = WRONG[sys.argv.pop(1)]
-    limits = Limits(silence=60, stuck=0.5) if "--slowly" in sys.argv else QUICK
+    limits = Limits(silence=60, stuck=0.2) if "--slowly" in sys.argv else QUICK
     sys.argv = [argument for argument in sys.argv if argument != "--slowly"]
     with (
         patch("kiosk.ui.screens.board.BoardScreen.reveal", wrong),

@@ -23,10 +23,10 @@ from kiosk.store.snapshot import InterruptedSession, read_interrupted_session
 from kiosk.store.verify import verify
 from kiosk.ui.app import App
 from kiosk.ui.rehearsal import Rehearsal
-from tests.ui.headless import HALF, headless
+from tests.ui.headless import HALF, headless, often
 from tests.ui.visiting import PAIR, go_on_to_the_end, go_to
 
-SMALL = Settings.model_validate({"languages": ["it"], "questionnaires": ["trust"], **PAIR})
+SMALL = often(Settings.model_validate({"languages": ["it"], "questionnaires": ["trust"], **PAIR}))
 RESUMABLE = [stage for stage in Stage if stage not in {*BEFORE_DECIDING, Stage.ATTRACT, Stage.GAME, Stage.OVER}]
 
 

@@ -24,10 +24,10 @@ from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile
 from kiosk.ui.window import RunMode
 from tests.ui.conftest import MakeBooth
-from tests.ui.headless import BRIEF, HALF, SMALL, TINY, headless, short
+from tests.ui.headless import BRIEF, HALF, SMALL, TINY, headless, often, short
 from tests.ui.visiting import PAIR
 
-BARE = Settings.model_validate({"questionnaires": ["trust"], **PAIR})
+BARE = often(Settings.model_validate({"questionnaires": ["trust"], **PAIR}))
 """Every stage, each as short as it can be."""
 
 
