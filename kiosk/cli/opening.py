@@ -18,7 +18,7 @@ from kiosk.study.loader import read_study
 from kiosk.ui.app import App
 from kiosk.ui.event_loop import after_first_frame
 from kiosk.ui.session_runner import ConditionAssigner, RunContext
-from kiosk.ui.window import RunMode, WindowMode, check_screen
+from kiosk.ui.window import RunMode, Window, WindowMode, check_screen
 
 SEED_BITS = 63
 """As many as the column holds. Boards are published: seeds, and so codes, must not be found by trying."""
@@ -46,6 +46,17 @@ def open_kiosk(asked: Opening, beat: Callable[[], None], drawn: Callable[[], Non
     ``beat`` is called out of the event loop, and ``drawn`` once the kiosk's own first frame is on the screen.
     """
     commit = code_commit_beside()
+    Window.begin_to_load()
+    try:
+        return _open(asked, beat, drawn, commit)
+    finally:
+        # What was refused has opened no window.
+        Window.drop_engine()
+
+
+def _open(
+    asked: Opening, beat: Callable[[], None], drawn: Callable[[], None], commit: Callable[[], str]
+) -> dict[str, Any]:
     prepared = read_study(read_settings(asked.study, asked.robot_host, asked.robot_port))
     check_robot(prepared.settings)
     if asked.unattended:

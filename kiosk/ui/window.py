@@ -11,7 +11,7 @@ from typing import ClassVar
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, QUrl
 from PySide6.QtGui import QGuiApplication, QIcon
 from PySide6.QtNetwork import QNetworkProxy
-from PySide6.QtQml import QQmlApplicationEngine, QQmlEngine
+from PySide6.QtQml import QQmlApplicationEngine, QQmlComponent, QQmlEngine
 from PySide6.QtQuick import QQuickWindow
 
 from kiosk import UserInputError
@@ -115,8 +115,21 @@ class Window:
             delete_now(self._engine)
 
     @classmethod
+    def begin_to_load(cls) -> None:
+        """Load the screens on a thread of Qt's, while this one prepares what the next window shows.
+
+        Without an application object nothing is loaded yet: whether there can be one is not known.
+        """
+        if cls._left is None and QGuiApplication.instance() is not None:
+            refuse_network()
+            cls._left = QQmlApplicationEngine()
+            # The engine keeps it, and with it what it loads, until the window asks for the same file.
+            beside = QQmlComponent.CompilationMode.Asynchronous
+            QQmlComponent(cls._left, QUrl.fromLocalFile(str(QML)), beside, cls._left)
+
+    @classmethod
     def drop_engine(cls) -> None:
-        """Delete the engine that the last window has left, if it has."""
+        """Delete the engine that waits for the next window, if one does."""
         if cls._left is not None:
             delete_now(cls._left)
             cls._left = None

@@ -9,13 +9,14 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QImage
+from PySide6.QtQml import QQmlComponent, QQmlEngine
 from PySide6.QtQuick import QQuickItem
 from pytestqt.qtbot import QtBot
 
 from kiosk.config import ASSETS
 from kiosk.experiment.questionnaire import Questionnaire
 from kiosk.ui.screens.shell import FIXED
-from kiosk.ui.window import QML, ClockMode, RunMode, WindowMode
+from kiosk.ui.window import QML, ClockMode, RunMode, Window, WindowMode
 from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import headless, short
@@ -151,6 +152,17 @@ def test_the_first_start_screen_takes_a_tap_before_any_page_is_made(qtbot: QtBot
         assert app.screens.kiosk.takes_input
         Booth(app, tmp_path).click("start-en")
         qtbot.waitUntil(lambda: app.screens.kiosk.shown == "introduction")
+
+
+def test_a_window_takes_the_screens_that_were_loaded_beforehand(qtbot: QtBot, tmp_path: Path) -> None:
+    del qtbot
+    Window.drop_engine()
+    Window.begin_to_load()
+    with headless(short(), tmp_path) as app:
+        engine = QQmlEngine.contextForObject(app.window).engine()
+        made = engine.findChildren(QQmlComponent, options=Qt.FindChildOption.FindDirectChildrenOnly)
+        # One began to load, and the engine made the window of the other.
+        assert [(each.isReady(), each.url().toLocalFile()) for each in made] == [(True, str(QML))] * 2
 
 
 def test_larger_text_is_larger_and_still_inside(make_booth: MakeBooth) -> None:
