@@ -1,6 +1,7 @@
 """A program for tests: the booth's window on several faked screens, and where it is after each thing that happens.
 
-``python -m tests.ui.many_screens NUMBER`` prints one JSON object; the screens are those of ``QT_QPA_PLATFORM``.
+``python -m tests.ui.many_screens NUMBER...`` prints a JSON object for each number of a screen; the screens are those of
+``QT_QPA_PLATFORM``.
 """
 
 from __future__ import annotations
@@ -17,16 +18,22 @@ from PySide6.QtQuick import QQuickWindow
 from kiosk.ui import kiosk_window
 from kiosk.ui.displays import numbered_screens
 from kiosk.ui.kiosk_window import KioskWindow
+from kiosk.ui.window import delete_now
 
 
-def main(number: int) -> None:
-    """Open the window on a screen, pull that screen out, and plug it in again."""
+def main(numbers: list[int]) -> None:
+    """Open a window on each of these screens in turn."""
+    application = QGuiApplication(["many screens"])
+    sys.stdout.write(json.dumps({number: seen(application, number) for number in numbers}))
+
+
+def seen(application: QGuiApplication, number: int) -> dict[str, object]:
+    """Return where a window is on this screen, when that is pulled out and plugged in again, and what was logged."""
     told: list[str] = []
     handler = logging.Handler()
     handler.addFilter(lambda record: "there is no screen" in record.getMessage())
     handler.emit = lambda record: told.append(record.getMessage())  # type: ignore[method-assign]
     logging.getLogger("kiosk.ui.kiosk_window").addHandler(handler)
-    application = QGuiApplication(["many screens"])
     owner, window = QObject(), QQuickWindow()
     booth = KioskWindow(window, number, owner)
     found = {"at first": place(window)}
@@ -39,8 +46,12 @@ def main(number: int) -> None:
     window.setGeometry(10, 10, 100, 100)
     screens[0].geometryChanged.emit(screens[0].geometry())
     found["resized"] = place(window)
-    sys.stdout.write(json.dumps({"places": found, "told": told, "ratio": window.devicePixelRatio()}))
     booth.release()
+    logging.getLogger("kiosk.ui.kiosk_window").removeHandler(handler)
+    ratio = window.devicePixelRatio()
+    delete_now(owner)
+    delete_now(window)
+    return {"places": found, "told": told, "ratio": ratio}
 
 
 def place(window: QQuickWindow) -> list[int]:
@@ -52,4 +63,4 @@ def place(window: QQuickWindow) -> list[int]:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]))
+    main([int(number) for number in sys.argv[1:]])

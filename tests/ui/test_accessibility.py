@@ -23,7 +23,8 @@ from tests.ui.conftest import MakeBooth
 from tests.ui.headless import headless
 from tests.ui.looking import colours, contrast, described, items, place, texts
 from tests.ui.sights import Sight, look
-from tests.ui.touring import tour, whole_study
+from tests.ui.test_told_and_seen import told
+from tests.ui.touring import open_panel, tour, whole_study
 
 pytestmark = pytest.mark.usefixtures("spoken")
 
@@ -176,6 +177,20 @@ def test_the_bar_of_a_replay_is_told_and_read_as_well(qtbot: QtBot, palette: str
     assert len(in_the_bar) > 3
     assert min(each.contrast for each in in_the_bar) >= LEAST_CONTRAST[palette]
     assert min(each.pixels for each in in_the_bar) >= LEAST_PIXELS_FOR_EXPERIMENTERS
+
+
+def test_the_panel_tells_which_choice_holds(make_booth: MakeBooth) -> None:
+    booth = make_booth(settings=whole_study())
+    booth.click("start-en")
+    keyboard = open_panel(booth.app)
+    keyboard.click("panel-next")
+    keyboard.click("volume-0.4")
+    assert told(booth, "volume-0.4").role() is QAccessible.Role.RadioButton
+    assert [bool(told(booth, f"volume-{each}").state().checked) for each in ("0.2", "0.4", "0.6")] == [
+        False,
+        True,
+        False,
+    ]
 
 
 def longest_move(window: QQuickWindow) -> int:

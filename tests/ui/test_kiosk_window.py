@@ -25,8 +25,11 @@ ROOT = Path(__file__).parents[2]
 SCREENS = [(0, 0, 1920, 1080), (1920, 0, 1280, 720), (3200, 0, 1080, 1920), (4280, 0, 3840, 2160)]
 
 
-def on_screens(folder: Path, number: int, ratio: float = 1.0) -> dict[str, Any]:
-    """Return what happens to a booth's window on faked screens."""
+Told = dict[str, Any]
+
+
+def on_screens(folder: Path, *numbers: int, ratio: float = 1.0) -> dict[str, Told]:
+    """Return what happens to a booth's window on faked screens, opened on each of these in turn."""
     names = ("x", "y", "width", "height")
     screens = [
         {"name": f"screen {n}", "logicalDpi": 96, "dpr": 1} | dict(zip(names, screen, strict=True))
@@ -37,41 +40,44 @@ def on_screens(folder: Path, number: int, ratio: float = 1.0) -> dict[str, Any]:
         "QT_QPA_PLATFORM": f"offscreen:configfile={folder / 'screens.json'}",
         "QT_SCALE_FACTOR": str(ratio),
     }
-    command = [sys.executable, "-m", "tests.ui.many_screens", str(number)]
+    command = [sys.executable, "-m", "tests.ui.many_screens", *map(str, numbers)]
     ran = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=60, check=True)
-    told: dict[str, Any] = json.loads(ran.stdout)
+    told: dict[str, Told] = json.loads(ran.stdout)
     return told
 
 
+@pytest.fixture(scope="module")
+def told(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Told]:
+    """Return what happens on each screen that is there, and on one that is not."""
+    return on_screens(tmp_path_factory.mktemp("screens"), 0, 1, 2, 3, 7)
+
+
 @pytest.mark.parametrize("number", range(4))
-def test_the_window_covers_the_screen_of_its_number(tmp_path: Path, number: int) -> None:
-    told = on_screens(tmp_path, number)
-    assert told["places"]["at first"] == list(SCREENS[number])
+def test_the_window_covers_the_screen_of_its_number(told: dict[str, Told], number: int) -> None:
+    assert told[str(number)]["places"]["at first"] == list(SCREENS[number])
 
 
-def test_the_window_goes_to_the_primary_screen_when_its_own_is_pulled_out_and_back_again(tmp_path: Path) -> None:
-    told = on_screens(tmp_path, 2)
-    assert told["places"]["pulled out"] == list(SCREENS[0])
-    assert told["places"]["plugged in"] == list(SCREENS[2])
-    assert told["told"] == ["there is no screen 2, so the primary one is taken; there are 1"]
+def test_the_window_goes_to_the_primary_screen_when_its_own_is_pulled_out_and_back_again(told: dict[str, Told]) -> None:
+    assert told["2"]["places"]["pulled out"] == list(SCREENS[0])
+    assert told["2"]["places"]["plugged in"] == list(SCREENS[2])
+    assert told["2"]["told"] == ["there is no screen 2, so the primary one is taken; there are 1"]
 
 
-def test_a_screen_that_is_not_there_is_told_once_and_the_primary_one_taken(tmp_path: Path) -> None:
-    told = on_screens(tmp_path, 7)
-    assert told["places"]["at first"] == list(SCREENS[0])
-    assert told["told"][0] == "there is no screen 7, so the primary one is taken; there are 4"
-    assert len(told["told"]) == 1
+def test_a_screen_that_is_not_there_is_told_once_and_the_primary_one_taken(told: dict[str, Told]) -> None:
+    assert told["7"]["places"]["at first"] == list(SCREENS[0])
+    assert told["7"]["told"][0] == "there is no screen 7, so the primary one is taken; there are 4"
+    assert len(told["7"]["told"]) == 1
 
 
-def test_the_window_covers_its_screen_again_when_the_resolution_changes(tmp_path: Path) -> None:
-    assert on_screens(tmp_path, 0)["places"]["resized"] == list(SCREENS[0])
+def test_the_window_covers_its_screen_again_when_the_resolution_changes(told: dict[str, Told]) -> None:
+    assert told["0"]["places"]["resized"] == list(SCREENS[0])
 
 
 @pytest.mark.parametrize("ratio", [1.0, 1.5, 2.0])
-def test_the_window_covers_its_screen_at_any_density(tmp_path: Path, ratio: float) -> None:
-    told = on_screens(tmp_path, 0, ratio)
-    _, _, width, height = told["places"]["at first"]
-    assert told["ratio"] == ratio
+def test_the_window_covers_its_screen_at_any_density(told: dict[str, Told], tmp_path: Path, ratio: float) -> None:
+    seen = (told if ratio == 1 else on_screens(tmp_path, 0, ratio=ratio))["0"]
+    _, _, width, height = seen["places"]["at first"]
+    assert seen["ratio"] == ratio
     assert (width * ratio, height * ratio) == pytest.approx((1920, 1080), abs=ratio)
 
 

@@ -12,11 +12,17 @@ from kiosk.ui.simulated_visitor import lay_out
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.looking import LEAST_CHANGE, is_control, painted, place, strongest_change, texts
 from tests.ui.reaching import Keyboard
-from tests.ui.touring import ASKED, open_panel, whole_study
+from tests.ui.touring import ASKED, whole_study
 
 pytestmark = pytest.mark.usefixtures("spoken")
 
 Role = QAccessible.Role
+
+
+@pytest.fixture
+def booth(resting_booth: Booth) -> Booth:
+    """Return one booth for all tests that show a page; what is said to visitors in a session has booths of its own."""
+    return resting_booth
 
 
 def told(booth: Booth, name: str) -> QAccessibleInterface:
@@ -119,20 +125,6 @@ def test_boxes_of_consent_tell_whether_they_are_ticked_and_what_lacks(make_booth
     assert (
         strongest_change(before, booth.app.window.grabWindow(), place(booth.item(f"purpose-{first}"))) >= LEAST_CHANGE
     )
-
-
-def test_the_panel_tells_which_choice_holds(make_booth: MakeBooth) -> None:
-    booth = make_booth(settings=whole_study())
-    booth.click("start-en")
-    keyboard = open_panel(booth.app)
-    keyboard.click("panel-next")
-    keyboard.click("volume-0.4")
-    assert told(booth, "volume-0.4").role() is QAccessible.Role.RadioButton
-    assert [bool(told(booth, f"volume-{each}").state().checked) for each in ("0.2", "0.4", "0.6")] == [
-        False,
-        True,
-        False,
-    ]
 
 
 @pytest.mark.parametrize("kind", sorted(ASKED))
