@@ -429,7 +429,9 @@ def test_the_keys_on_the_screen_come_for_a_touch_and_not_for_a_mouse(booth: Boot
     assert item_centre(booth.item("number-alone")) == place
 
 
-def test_five_options_of_a_wide_page_leave_no_empty_place(make_booth: MakeBooth, qtbot: QtBot) -> None:
+def test_five_options_of_a_wide_page_stand_in_thirds_and_leave_no_empty_place(
+    make_booth: MakeBooth, qtbot: QtBot
+) -> None:
     booth = make_booth()
     window = booth.app.window
     window.resize(1920, 1080)
@@ -437,9 +439,11 @@ def test_five_options_of_a_wide_page_leave_no_empty_place(make_booth: MakeBooth,
     ask(booth, *Questionnaire.read(ASSETS / "questionnaires" / "about-you.toml").items)
     options = [booth.item(f"option-robots-{name}") for name in ("none", "stories", "fairs", "owns", "works")]
     assert [option.y() == options[0].y() for option in options] == [True] * 3 + [False] * 2
-    assert {round(last.x() + last.width()) for last in (options[2], options[4])} == {
-        round(options[0].parentItem().width())
-    }
+    gap, end = options[1].x() - options[0].width(), options[0].parentItem().width()
+    assert [option.x() for option in options[3:]] == [options[0].x(), options[2].x()]
+    assert [round(option.x() + option.width()) for option in options[1:]] == [
+        round(place) for place in (options[2].x() - gap, end, options[2].x() - gap, end)
+    ]
 
 
 def test_an_upright_screen_s_keys_take_the_helper_s_place_and_show_what_is_typed(

@@ -11,10 +11,8 @@ Button {
     // How wide it may be at most; its words then take more lines.
     property real most: Infinity
     property bool quiet: false
-    // A quiet one that is the way on, once something else is done: paler than the others.
+    // A quiet one that is the way on, once what the page asks for is done: paler than the others, with a lock before its words.
     property bool waits: false
-    // One that waits for what the page asks for shows a lock before its words.
-    property bool locked: false
     // How round it is at most.
     property real corner: Infinity
 
@@ -24,7 +22,7 @@ Button {
     horizontalPadding: 56 * Theme.unit
     verticalPadding: 26 * Theme.unit
     // A lock and the words are in the middle together, and the button is as wide without the lock.
-    readonly property real shift: locked ? Theme.ahead * 16 * Theme.unit : 0
+    readonly property real shift: waits ? Theme.ahead * 16 * Theme.unit : 0
     font.pixelSize: Theme.body
     font.bold: true
     scale: down ? 0.96 : 1
@@ -52,12 +50,12 @@ Button {
     background: Rectangle {
         id: ground
         radius: Math.min(height / 2, button.topPadding + button.font.pixelSize, button.corner)
-        color: button.waits && !button.locked ? Theme.shelf : button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
+        color: button.waits ? Theme.shelf : button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
         border.color: button.waits ? Theme.slot : Theme.sea
         border.width: button.quiet ? 3 * Theme.unit : 0
 
         Drawing {
-            visible: button.locked
+            visible: button.waits
             readonly property real half: Math.min(letters.advanceWidth(button.words), button.availableWidth) / 2
             x: button.width / 2 + button.shift - Theme.ahead * (half + 22 * Theme.unit) - width / 2
             y: (ground.height - height) / 2

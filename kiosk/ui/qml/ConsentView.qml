@@ -22,7 +22,6 @@ PageFrame {
     other: words["consent-decline"]
     way.name: "agree"
     way.waits: !consent.complete
-    way.locks: true
     way.even: true
     way.reason: consent.waiting
     way.otherName: "decline"

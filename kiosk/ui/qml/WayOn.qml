@@ -13,8 +13,6 @@ FocusScope {
     property string label: ""
     property bool quiet: false
     property bool waits: false
-    // Whether it then shows a lock.
-    property bool locks: false
     // Why it waits, for those who cannot see it.
     property string reason: ""
     // Whether the ways on take what the way back leaves of the width, with gaps as wide between all of them.
@@ -68,7 +66,6 @@ FocusScope {
         corner: ways.level ? no.topPadding + no.font.pixelSize : Infinity
         quiet: ways.quiet
         waits: ways.waits
-        locked: ways.waits && ways.locks
         Accessible.description: ways.reason
         words: ways.label
         focus: true

@@ -87,7 +87,9 @@ Rectangle {
         contentItem: Text {
             textFormat: Text.PlainText
             text: key.drawn ? "" : key.words
-            font { pixelSize: Math.min(keyboard.flat ? Theme.size(42) : Theme.body, 0.56 * keyboard.keyHeight); bold: key.pressedIn }
+            // Digits are looked for, and larger than words.
+            readonly property bool digit: keyboard.numbers && !key.pressedIn
+            font { pixelSize: Math.min(digit ? Theme.size(keyboard.flat ? 46 : 42) : keyboard.flat ? Theme.size(42) : Theme.body, 0.56 * keyboard.keyHeight); bold: key.pressedIn || digit }
             color: key.pressedIn ? Theme.white : Theme.ink
             horizontalAlignment: Text.AlignHCenter
             verticalAlignment: Text.AlignVCenter
@@ -99,7 +101,7 @@ Rectangle {
             Backspace {
                 visible: key.drawn
                 anchors.centerIn: parent
-                scale: (keyboard.flat ? 2.4 : keyboard.numbers ? 1.8 : 1.5) * Theme.unit
+                scale: (keyboard.flat ? 2.4 : keyboard.numbers ? 2.1 : 1.5) * Theme.unit
             }
         }
     }
