@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import partial, reduce
 from typing import Any
 
 import pytest
@@ -456,11 +456,15 @@ def test_title_and_ways_stand_at_the_same_places_on_all_pages(
     assert len({bottom for _, bottom in on} - {None}) == 1
 
 
+WAYS = (("answer", "-1"), ("answer", "-5"), ("slider", ""))
+"""How the ends of a scale of five points and a line are named."""
+
+
 @pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)
 def test_scales_stand_at_the_same_places_on_all_pages_of_four_ratings(
     kiosk: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
-    rated = ASKED["social-intelligence"].items
+    rated = ASKED["social-intelligence"].items + ASKED["trust"].items
     screens, ground = kiosk[0].screens, kiosk[0].shown.contentItem()
     assert list(shown_in(kiosk, layout, ("four ratings",))) == ["four ratings"]
     screens.avatar.leave(away=True)
@@ -469,11 +473,12 @@ def test_scales_stand_at_the_same_places_on_all_pages_of_four_ratings(
         page = rated[first : first + 4]
         screens.form.show(page, 1, 5)
         lay_out(kiosk[0].shown)
-        points = [find_item(ground, f"answer-{item.id}-{end}") for item in page for end in (1, 5)]
-        places.add(tuple(whole(point).toRect().getRect() for point in points if point is not None))
+        ends = [[find_item(ground, f"{way}-{item.id}{end}") for way, end in WAYS] for item in page]
+        scales = [reduce(QRectF.united, (whole(end) for end in both if end is not None)) for both in ends]
+        places.add(tuple(scale.toRect().getRect() for scale in scales))
     screens.avatar.leave(away=False)
     (only,) = places
-    assert len(set(only)) == 2 * 4
+    assert len(set(only)) == 4
 
 
 @pytest.mark.parametrize(

@@ -67,10 +67,10 @@ PageFrame {
             const left = folded("left", end), right = folded("right", end)
             const scaleWidth = left + right + 2 * Theme.gap + (points + 0.3 * (points - 1)) * point
             const textWidth = inner - scaleWidth - 2 * Theme.gap
-            const line = 1.4 * end + 80 * Theme.unit, counts = form.items.map(item => lines(item.shown, text, textWidth))
-            const height = Math.max(point, 1.37 * text * Math.max(2, ...counts), form.items.every(scales) ? 0 : line)
+            const counts = form.items.map(item => lines(item.shown, text, textWidth))
+            const height = Math.max(point, 1.37 * text * Math.max(2, ...counts))
             if (textWidth > 0.3 * inner && Math.max(...counts) <= most && spareMargin(height) >= 14 * Theme.unit)
-                return {point, line, end, left, right, scaleWidth, textWidth, text, height}
+                return {point, end, left, right, scaleWidth, textWidth, text, height}
         }
         return null
     }
@@ -106,7 +106,7 @@ PageFrame {
     // How much height a card of an upright page of ratings keeps for its question, so that scales stand at the same
     // places on each of these pages: two lines, unless the page is too low for that.
     readonly property real questionHeight: {
-        const two = 2 * 1.37 * Theme.size(38), card = two + 1.37 * Theme.size(30) + 194 * Theme.unit
+        const two = 2 * 1.37 * Theme.size(38), card = two + 1.37 * Theme.size(30) + (Theme.textSize > 1 ? 194 : 202) * Theme.unit
         return rated && form.items.length * card <= room - lead ? two : 0
     }
     readonly property real spread: (dense || tight ? 8 : 12) * Theme.unit
@@ -258,7 +258,7 @@ PageFrame {
         anchors.fill: parent
         TapHandler { onTapped: view.way.button.forceActiveFocus() }
     }
-    // The same as a line of as many parts, over an upright page.
+    // The same as a line of as many parts, over an upright page. The part of this page is half as dark as those done.
     Row {
         visible: progress.visible && view.upright
         y: -0.75 * Theme.gap
@@ -271,7 +271,7 @@ PageFrame {
                 width: (view.column - (view.form.pages - 1) * 8 * Theme.unit) / Math.max(1, view.form.pages)
                 height: 8 * Theme.unit
                 radius: height / 2
-                color: index < view.form.page ? Theme.sea : Theme.sand
+                color: index < view.form.page - 1 ? Theme.sea : index < view.form.page ? Qt.tint(Theme.paper, Qt.alpha(Theme.sea, 0.5)) : Theme.sand
             }
         }
     }

@@ -51,7 +51,7 @@ Item {
     // How high it is without that, and how much can be added.
     readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asked.asks + (way.active ? usualSpacing + way.height : 0)) + 2 * usualMargin
     readonly property real addable: alone || beside ? 0 : 32 * Theme.unit
-    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : questionHeight > 0 ? Theme.textSize > 1 ? 16 : 24 : airy ? 22 : calm ? 14 : 8) * Theme.unit
+    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : questionHeight > 0 ? Theme.textSize > 1 ? 16 : 32 : airy ? 22 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
     readonly property real usualMargin: alone ? 0 : own ? Math.max(10 * Theme.unit, rowMargin - taken / 2) : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : questionHeight > 0 ? 12 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
@@ -123,17 +123,16 @@ Item {
             readonly property real scaled: (way.item as PointScale)?.size ?? (way.item as SliderScale)?.rail ?? 0
             // How high the words are that head the points of a table.
             readonly property real heads: (way.item as PointScale)?.head ?? 0
-            // A line stands in the middle of a row with what there is to do above it, and takes some of the margins.
-            readonly property bool slides: box.own && box.item.kind === "slider"
             // The text is level with the points. With the light words below them, these stand a little above the middle.
-            readonly property real axis: slides || box.flank ? middle : box.own ? Math.max((height - way.height + scaled) / 2 + 0.3 * box.rowMargin, told.height / 2 - 8 * Theme.unit) : middle
+            readonly property real axis: box.flank ? middle : box.own ? Math.max((height - way.height + scaled) / 2 + 0.3 * box.rowMargin, told.height / 2 - 8 * Theme.unit) : middle
             // Rows of one line and of two are as high; with words for its ends it is as high as a scale and a line of words.
-            readonly property real middle: Math.max(box.own ? box.rowHeight : scaled, slides && !box.flank ? way.height - 1.2 * box.rowMargin : 0, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
+            readonly property real middle: Math.max(box.own ? box.rowHeight : scaled, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
             height: box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : asks + (way.active ? content.spacing + way.height : 0)
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.beside ? asked.axis - height / 2 : ((box.inline ? asked.height : asked.asks) - height) / 2
+                // Above a scale, first lines stand at one place on all cards.
+                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.questionHeight > 0 ? content.spacing / 4 : 0
                 width: box.beside ? box.textWidth : box.inline ? asked.width - 470 * Theme.unit : asked.width
                 spacing: box.inline ? 0 : content.spacing
                 Balanced {
@@ -175,7 +174,7 @@ Item {
                 id: way
                 readonly property real room: box.beside ? box.scaleWidth : asked.width
                 x: Theme.across(box.beside ? asked.width - room : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.flank ? asked.middle - (asked.slides ? box.flank.line : box.flank.point) / 2 : asked.slides ? (asked.height - height) / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : asked.asks + content.spacing
+                y: box.flank ? asked.middle - box.flank.point / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : asked.asks + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
@@ -281,7 +280,7 @@ Item {
             given: box.answer ?? 0
             alone: box.alone
             dense: box.dense || box.tight || (Theme.textSize > 1.15 && !box.large)
-            large: box.airy && !box.alone
+            large: box.large && !box.alone
             onChosen: value => box.form.rate(box.item.id, value)
         }
     }

@@ -29,29 +29,25 @@ Item {
 
     readonly property int range: highest - lowest
     readonly property int leap: Math.max(1, Math.round(range / 10))
-    // How high the line is: as easy to hit as a point of the others.
-    readonly property real rail: (own && !flank ? 64 : dense ? 64 : 76) * Theme.unit
+    // How high the line is: as the points of the others, and as easy to hit.
+    readonly property real rail: flank?.point ?? (own ? 92 : dense ? 64 : large ? 112 : alone ? 100 : 76) * Theme.unit
     // The handle, with room around it in the line.
     readonly property real thickness: rail - 12 * Theme.unit
 
-    // What there is to do stands above it.
-    readonly property real hintHeight: 1.4 * hint.font.pixelSize
-    readonly property real above: hintHeight + (own && !flank || large ? 2 : 4) * Theme.unit
-
     readonly property real words: Math.max(lower.height, upper.height)
-    readonly property real apart: (own ? 3 : large ? 7 : 4) * Theme.unit
-    // Among other kinds of items the ends stand beside the line, and what there is to do in it.
+    readonly property real apart: (own ? 6 : large && Theme.textSize <= 1.15 ? 14 : 12) * Theme.unit
+    // Among other kinds of items the ends stand beside the line.
     readonly property bool level: !own && !alone && !large
     readonly property real most: 250 * Theme.unit * Theme.textSize
     readonly property bool below: !flank && (!level || width < 4 * most)
     readonly property real leftRoom: flank ? flank.left + Theme.gap : below ? 0 : Math.min(lower.implicitWidth, most) + Theme.gap
     readonly property real rightRoom: flank ? flank.right + Theme.gap : below ? 0 : Math.min(upper.implicitWidth, most) + Theme.gap
 
-    height: flank ? above + rail : below ? above + slider.height + apart + words : Math.max(above + slider.height, words)
+    height: flank ? rail : below ? rail + apart + words : Math.max(rail, words)
 
     PlainText {
         id: lower
-        y: scale.below ? slider.y + slider.height + scale.apart : slider.y + (slider.height - height) / 2
+        y: scale.below ? slider.height + scale.apart : (scale.height - height) / 2
         x: Theme.across(0, width, scale.width)
         width: scale.below ? slider.width / 2 - Theme.gap : scale.leftRoom - Theme.gap
         text: scale.leftEnd
@@ -63,7 +59,7 @@ Item {
     }
     PlainText {
         id: upper
-        y: scale.below ? lower.y : slider.y + (slider.height - height) / 2
+        y: scale.below ? lower.y : (scale.height - height) / 2
         x: Theme.across(scale.below ? slider.width - width : scale.leftRoom + slider.width + scale.rightRoom - width, width, scale.width)
         width: scale.below ? lower.width : scale.rightRoom - Theme.gap
         text: scale.rightEnd
@@ -85,7 +81,7 @@ Item {
         }
         objectName: `slider-${scale.item}`
         x: Theme.across(scale.leftRoom, width, scale.width)
-        y: scale.below ? scale.above : (scale.height - height + scale.above) / 2
+        y: scale.below ? 0 : (scale.height - height) / 2
         // On a page of several, its ends stand at the same edges as those of the points.
         width: scale.alone ? Math.min(900 * Theme.unit, scale.width) : scale.width - scale.leftRoom - scale.rightRoom
         height: scale.rail
@@ -127,13 +123,20 @@ Item {
             border { color: Theme.sea; width: (slider.hovered ? 5 : 3) * Theme.unit }
             // Where the middle of the handle can be.
             readonly property real inset: slider.leftPadding + scale.thickness / 2
+            readonly property real span: slider.width - 2 * inset
+            // How much of the line's middle makes way for what there is to do.
+            readonly property real parted: hint.visible ? Math.min(span, hint.width + 2 * Theme.gap) : 0
             // The line itself: without it this would look like a field to type in.
-            Rectangle {
-                x: groove.inset
-                y: (scale.rail - height) / 2
-                width: slider.width - 2 * groove.inset
-                height: 4 * Theme.unit
-                color: Theme.sea
+            Repeater {
+                model: 2
+                Rectangle {
+                    required property int index
+                    x: groove.inset + index * (groove.span + groove.parted) / 2
+                    y: (scale.rail - height) / 2
+                    width: (groove.span - groove.parted) / 2
+                    height: 4 * Theme.unit
+                    color: Theme.sea
+                }
             }
             // A tenth of the way each, or a step where there are fewer. All are alike: a longer one would look chosen.
             Repeater {
@@ -141,7 +144,8 @@ Item {
                 model: Math.min(10, scale.range) + 1
                 Rectangle {
                     required property int index
-                    readonly property real middle: groove.inset + index / (ticks.model - 1) * (slider.width - 2 * groove.inset)
+                    readonly property real middle: groove.inset + index / (ticks.model - 1) * groove.span
+                    visible: Math.abs(middle - slider.width / 2) >= groove.parted / 2
                     x: middle - width / 2
                     y: (scale.rail - height) / 2
                     width: 3 * Theme.unit
@@ -168,52 +172,20 @@ Item {
         }
     }
     // As long as nothing is chosen there is no handle: one that stood there would suggest an answer. What there is to do
-    // stands above the line: between the words for its ends it would name the middle. Its arrows reach to both ends, as
-    // a hand would point at one answer.
+    // stands in the line, with ticks at both sides, until it is touched.
     PlainText {
         id: hint
         objectName: `touch-${scale.item}`
         visible: !scale.answered && !slider.pressed
         x: slider.x + (slider.width - width) / 2
-        y: slider.y - scale.above
-        width: Math.min(implicitWidth, slider.width)
-        height: scale.hintHeight
+        y: slider.y
+        width: Math.min(implicitWidth, slider.width - scale.rail)
+        height: slider.height
         verticalAlignment: Text.AlignVCenter
         text: scale.touch
-        font.pixelSize: scale.level ? Theme.small : lower.font.pixelSize
+        font.pixelSize: scale.dense ? Theme.small : lower.font.pixelSize
+        fontSizeMode: Text.HorizontalFit
+        minimumPixelSize: 24 * Theme.unit
         color: Theme.ink
-        Repeater {
-            model: [-1, 1]
-            Item {
-                id: arrow
-                required property int modelData
-                visible: width > 1.5 * hint.height
-                x: modelData < 0 ? -width - 0.8 * Theme.gap : hint.width + 0.8 * Theme.gap
-                width: (slider.width - hint.width) / 2 - 0.8 * Theme.gap - slider.height / 2
-                height: hint.height
-                rotation: modelData < 0 ? 180 : 0
-                Rectangle {
-                    y: (arrow.height - height) / 2
-                    width: arrow.width - Theme.unit
-                    height: 3 * Theme.unit
-                    color: Theme.sea
-                }
-                // Its head is no drawing: those would be seen where the page is scrolled out of sight.
-                Repeater {
-                    model: [-45, 45]
-                    Rectangle {
-                        required property int modelData
-                        x: arrow.width - width
-                        y: (arrow.height - height) / 2
-                        width: 15 * Theme.unit
-                        height: 3 * Theme.unit
-                        radius: height / 2
-                        rotation: modelData
-                        transformOrigin: Item.Right
-                        color: Theme.sea
-                    }
-                }
-            }
-        }
     }
 }
