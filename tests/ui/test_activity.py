@@ -24,7 +24,7 @@ from tests.ui.touring import PIN, SHORTCUT, whole_study
 
 LEFT, NO_KEY = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
 EVERY_MS = 10_000
-PLACE = QPoint(500, 500)
+PLACE = QPoint(250, 250)
 IDLE_MS = SMALL.idle_ms.about
 
 

@@ -30,7 +30,7 @@ from kiosk.ui.session_runner import LONGEST_MS, TOLD_AFTER_MS
 from kiosk.ui.simulated_visitor import lay_out
 from kiosk.ui.window import RunMode, WindowMode
 from tests.ui.conftest import Booth, MakeBooth
-from tests.ui.headless import BRIEF, HALF, TINY, headless, short
+from tests.ui.headless import BRIEF, TINY, headless, short
 
 GALLERY = Questionnaire.read(ASSETS / "questionnaires" / "gallery.toml")
 HELD_MS = 30_000
@@ -42,12 +42,6 @@ print("held", flush=True)
 sys.stdin.read()
 held.execute("ROLLBACK")
 """
-
-
-@pytest.fixture
-def run_mode() -> RunMode:
-    """Return a mode in which sessions are drawn faster: nothing here is about how they look."""
-    return HALF
 
 
 @pytest.fixture

@@ -96,7 +96,7 @@ def test_without_a_mail_address_it_says_what_to_tell(debriefed: Booth, contact: 
 
 def test_the_code_is_the_largest_text_of_the_page(debriefed: Booth) -> None:
     assert debriefed.item("code").property("text") == CODE
-    assert debriefed.item("code").property("font").pixelSize() >= 60
+    assert debriefed.item("code").property("font").pixelSize() >= 60 / 1080 * debriefed.app.window.height()
 
 
 def test_without_a_code_nothing_is_said_about_withdrawing(debriefed: Booth) -> None:

@@ -18,12 +18,11 @@ from kiosk.robots.driver import SpokenClip
 from kiosk.robots.voice_packs import PackClips
 from kiosk.store.database import open_for_reading
 from kiosk.store.queries import open_repository
-from kiosk.ui.window import RunMode
 from tests.robots.furhat_fake import FAULTS, FurhatFake, Mode
 from tests.robots.realtime_fake import Mode as Broken
 from tests.robots.realtime_fake import RealtimeFake
 from tests.ui.conftest import Booth, MakeBooth
-from tests.ui.headless import HALF, short
+from tests.ui.headless import short
 from tests.ui.sabotage import Moment, Result, Sabotage, after_loss, replayed, result_of
 
 BROKEN = tuple(mode for mode in Broken if mode not in {Broken.WELL, Broken.NAMELESS})
@@ -35,12 +34,6 @@ QUICK = dict.fromkeys(DEADLINES, 2_000)
 QUICKER = dict.fromkeys(DEADLINES, 700)
 """For a robot that is to be lost by a deadline: the test waits for it to pass, and it may pass a little early."""
 WITHOUT_ANSWER = (Mode.HANG, Mode.SLOW, Mode.TRICKLE, Broken.HANG, Broken.GARBAGE)
-
-
-@pytest.fixture
-def run_mode() -> RunMode:
-    """Return a mode in which sessions are drawn faster: nothing here is about how they look."""
-    return HALF
 
 
 def quick(robot: dict[str, object]) -> Settings:

@@ -11,21 +11,13 @@ from PySide6.QtTest import QTest
 from kiosk.experiment.items import Answer, ShortText
 from kiosk.ui.app import App
 from kiosk.ui.experimenter.view_model import AuthorisationStep
-from kiosk.ui.window import RunMode
 from tests.ui.conftest import Booth, MakeBooth
-from tests.ui.headless import HALF
 from tests.ui.reaching import MOST_STOPS
 from tests.ui.touring import ASKED, PIN, open_panel, tour, whole_study
 
 NO_KEY = Qt.KeyboardModifier.NoModifier
 ACTIVATING = (Qt.Key.Key_Space, Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Select)
 TEXT = {Qt.Key.Key_Space: " ", Qt.Key.Key_Return: "\r", Qt.Key.Key_Enter: "\r"}
-
-
-@pytest.fixture
-def run_mode() -> RunMode:
-    """Return a mode in which sessions are drawn faster: nothing here is about how they look."""
-    return HALF
 
 
 def send(window: QQuickWindow, act: QEvent.Type, key: Qt.Key, text: str, *, again: bool) -> None:

@@ -18,9 +18,8 @@ from kiosk.experiment.outcomes import Stage
 from kiosk.ui.app import App
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile, lay_out
-from kiosk.ui.window import RunMode
 from tests.ui.conftest import MakeBooth
-from tests.ui.headless import HALF, SMALL
+from tests.ui.headless import SMALL
 
 KEPT_BY_AN_ITEM = (
     *("visible", "enabled", "opacity", "focus", "text", "checked", "value", "contentX", "contentY", "cursorPosition"),
@@ -35,12 +34,6 @@ PLACE = ("x", "y", "width", "height")
 """The same of an item that is seen; one that is not is laid out anew before it is."""
 
 WALKED_OUT_OF = (Stage.CONSENT, Stage.ABOUT_YOU, Stage.PRACTICE, Stage.GAME, Stage.QUESTIONS, Stage.DEBRIEF)
-
-
-@pytest.fixture
-def run_mode() -> RunMode:
-    """Return a mode in which sessions are drawn faster: nothing here is about how they look."""
-    return HALF
 
 
 def of_screens(app: App) -> dict[str, object]:

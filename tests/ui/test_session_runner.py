@@ -19,20 +19,13 @@ from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.ui.disk_writer import DiskWriter
 from kiosk.ui.session_runner import ERROR_SCREEN_MS
-from kiosk.ui.window import RunMode
 from tests.ui.conftest import Booth, MakeBooth
-from tests.ui.headless import HALF, TINY, short
+from tests.ui.headless import TINY, short
 from tests.ui.visiting import PAIR, go_on_to_the_end, go_to
 
 T = TypeVar("T")
 
 QUICK = short(idle_ms={"game": 3_000, "still_there": 1_000})
-
-
-@pytest.fixture
-def run_mode() -> RunMode:
-    """Return a mode in which sessions are drawn faster: nothing here is about how they look."""
-    return HALF
 
 
 def refuse(self: Recorder, events: Sequence[Event]) -> None:  # noqa: ARG001 - the recorder's signature

@@ -14,18 +14,11 @@ from kiosk.experiment.events import Timer
 from kiosk.game import Position
 from kiosk.robots.audio import TARGET_LUFS, Clip, loudness_lufs
 from kiosk.ui.renderer import SoundEffect, sound_for
-from kiosk.ui.window import RunMode
 from tests.ui.conftest import MakeBooth
-from tests.ui.headless import HALF, short
+from tests.ui.headless import short
 
 HERE = Position(0, 0)
 TURN = do.RevealCard(HERE, "owl")
-
-
-@pytest.fixture
-def run_mode() -> RunMode:
-    """Return a mode in which sessions are drawn faster: nothing here is about how they look."""
-    return HALF
 
 
 @pytest.mark.parametrize(

@@ -22,19 +22,12 @@ from kiosk.experiment.session_state import SessionState
 from kiosk.store.queries import open_repository
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile
-from kiosk.ui.window import RunMode
 from tests.ui.conftest import MakeBooth
 from tests.ui.headless import BRIEF, HALF, SMALL, TINY, headless, often, short
 from tests.ui.visiting import PAIR
 
 BARE = often(Settings.model_validate({"questionnaires": ["trust"], **PAIR}))
 """Every stage, each as short as it can be."""
-
-
-@pytest.fixture
-def run_mode() -> RunMode:
-    """Return a mode in which sessions are drawn faster: nothing here is about how they look."""
-    return HALF
 
 
 def test_a_whole_session_by_mouse_leaves_its_events_its_hints_its_answers_and_its_consent(

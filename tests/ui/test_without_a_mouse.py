@@ -21,7 +21,6 @@ from kiosk.store.snapshot import read_snapshot
 from kiosk.ui.app import App
 from kiosk.ui.rehearsal import MakeHand, Rehearsal
 from tests.ui.conftest import Booth, MakeBooth
-from tests.ui.headless import HALF
 from tests.ui.looking import (
     EXPERIMENTERS,
     LEAST_CHANGE,
@@ -52,7 +51,6 @@ def answered(booth: Booth) -> tuple[Status | None, int, set[str]]:
     return session.status, session.pairs, given
 
 
-@pytest.mark.parametrize("run_mode", [HALF], ids=["half"])
 @pytest.mark.parametrize("hand", [Keyboard, Finger])
 @pytest.mark.parametrize("seed", [1, 2])
 def test_the_whole_study_with_every_kind_of_item_is_done_by_keyboard_alone_and_by_touch_alone(
@@ -64,7 +62,6 @@ def test_the_whole_study_with_every_kind_of_item_is_done_by_keyboard_alone_and_b
     assert answered(booth) == (Status.COMPLETED, 3, asked)
 
 
-@pytest.mark.parametrize("run_mode", [HALF], ids=["half"])
 @pytest.mark.parametrize("hand", [Keyboard, Finger])
 def test_the_study_as_it_comes_is_done_by_keyboard_alone_and_by_touch_alone(
     make_booth: MakeBooth, hand: MakeHand
@@ -207,7 +204,7 @@ def test_every_control_is_reached_by_keyboard_and_shows_it(make_booth: MakeBooth
         before = window.grabWindow()
         for held in stops(window):
             after = window.grabWindow()
-            where = place(held).adjusted(-12, -12, 12, 12)
+            where = place(held).adjusted(-6, -6, 6, 6)
             if strongest_change(before, after, where) < LEAST_CHANGE:
                 unseen.add((moment, held.objectName()))
             groups.add(held.objectName().rpartition("-")[0] if _is_one_of_several(held) else held.objectName())
