@@ -126,8 +126,12 @@ class Renderer:
                     screens.introduction.show(helped=helped, points=points)
                     yield from self._turn_to("introduction")
                 case do.ShowBoard(practice=practice):
-                    screens.board.deal(effect.rows, effect.columns, effect.pairs, effect.deck, practice=practice)
-                    screens.kiosk.show("practice" if practice else "game")
+                    board = screens.board
+                    board.clear_table(effect.rows, effect.columns, effect.pairs, effect.deck, practice=practice)
+                    # To make the cards is a step of its own.
+                    yield
+                    board.lay_cards()
+                    yield from self._turn_to("practice" if practice else "game")
                 case do.RevealCard(position=position, card=card):
                     screens.board.reveal(position, card)
                     screens.avatar.feel(None)

@@ -108,31 +108,35 @@ class BoardScreen(QAbstractListModel):
 
     def deal(self, rows: int, columns: int, pairs: int, deck: str, *, practice: bool = False) -> None:
         """Show so many closed cards of a deck; a practice can be left."""
+        self.clear_table(rows, columns, pairs, deck, practice=practice)
+        self.lay_cards()
+
+    def clear_table(self, rows: int, columns: int, pairs: int, deck: str, *, practice: bool = False) -> None:
+        """Make room for so many cards of a deck, and take away those that are there."""
         self._deck_name = deck
-        self._reset(rows, columns, pairs, practice=practice)
-
-    def clear(self) -> None:
-        """Show no card."""
-        self._deck_name = ""
-        self._reset(0, 0, 0, practice=False)
-
-    def _reset(self, rows: int, columns: int, pairs: int, *, practice: bool) -> None:
         # The old cards go first, and the new ones come last: none is made in the size of another board.
         self._put([])
         self._rows, self._columns, self._pairs = rows, columns, pairs
         self._practice = practice
         self._tray = []
-        self._deck = self._pictures.deck(self._deck_name) if rows * columns else []
+        self._deck = self._pictures.deck(deck) if rows * columns else []
         self._pairs_found = self._moves = 0
         self._wait = None
         self._untouched = rows * columns > 0
         self.touched.emit()
         self.changed.emit()
-        self._put([_Face() for _ in range(rows * columns)])
-        self.dealt.emit()
         self.counted.emit()
         self.waited.emit()
         self.clear_highlight()
+
+    def lay_cards(self) -> None:
+        """Show the closed cards that there is room for."""
+        self._put([_Face() for _ in range(self._rows * self._columns)])
+        self.dealt.emit()
+
+    def clear(self) -> None:
+        """Show no card."""
+        self.deal(0, 0, 0, "")
 
     def _touch(self) -> None:
         if self._untouched:
