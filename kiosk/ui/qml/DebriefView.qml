@@ -11,7 +11,7 @@ PageFrame {
     required property string labName
 
     // As much of the height as the text leaves, so that a page that fits does not scroll.
-    readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min((signed && width < height ? most : 350) * Theme.unit, room - texts.height - 2 * pad - 2 * rim - 1.1 * Theme.gap))
+    readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min((signed && width < height ? most : 350) * Theme.unit, room - texts.height - keepsake.crown - 2 * pad - 2 * rim - (width < height ? 1.1 : 1) * Theme.gap))
     // How large the code may be on an upright page, where the words beside it have to find room.
     readonly property real most: width < height && fits(Theme.size(34), noted, apart, 400) ? 400 : 340
     // How far the white around the code reaches beyond its own frame, for round corners.
@@ -27,7 +27,7 @@ PageFrame {
     // What stands on the card is read from it at home, in a photograph.
     readonly property real noted: [Theme.body, Theme.reading].find(size => fits(Theme.size(32), size, width < height ? 0.5 : 0.4)) ?? Theme.small
     // How far what stands on the card is from its upper and lower edge.
-    readonly property real pad: (signed && width < height ? 1.5 : !signed ? 0.75 : fits(size, noted, apart, 290, 52) ? 1.4 : noted > Theme.small ? 0.5 : 0.75) * Theme.gap
+    readonly property real pad: (signed && width < height ? 1.5 : !signed ? 0.75 : fits(size, noted, apart, 290, 52) ? 1.2 : noted > Theme.small ? 0.5 : 0.75) * Theme.gap
     // How far the lines are apart, in gaps: further where there is room for that.
     readonly property real apart: (width < height ? [1] : accompanied ? [1.1, 0.9, 0.7] : []).find(apart => fits(Theme.size(32), noted, apart, 290, width < height ? 0 : 52))
         ?? (width > height && noted > Theme.small ? 0.4 : 0.5)
@@ -44,7 +44,7 @@ PageFrame {
     }
     // Whether the lines have this size at most, with the card below them in its own.
     function fits(size: real, cardSize: real, apart: real, most = 290, more = 0): bool {
-        return estimate(size, cardSize, apart, most) + more * Theme.unit <= (width < height ? 0.93 : Theme.unit < 0.9 ? 0.96 : 1) * room
+        return estimate(size, cardSize, apart, most) + more * Theme.unit <= (width < height ? 0.96 : Theme.unit < 0.9 ? 0.96 : 1) * room
     }
     // How high lines and card are about then.
     function estimate(size: real, cardSize: real, apart: real, most = 290): real {
@@ -53,9 +53,10 @@ PageFrame {
         const tall = read.reduce((sum, line) => sum + Math.max(2.5 * size, broken(line.text, size, wide) * (leading + 0.06) * Math.ceil(1.37 * size)), 0)
         const beside = (column - most * Theme.unit - (width < height ? 4 : 2.5) * Theme.gap) * 0.95
         const noted = [debrief.scanning, width < height ? words["debrief-code"] : "", debrief.withdrawing, debrief.returning, debrief.questions].reduce((sum, text) => sum + lines(text, cardSize, beside), 0)
-        const heading = lines(kept, 1.08 * Theme.body, beside)
-        const card = heading * Math.ceil(1.37 * Theme.body) + 1.38 * Theme.size(72) + noted * Math.ceil(1.37 * cardSize) + (width < height ? 4.1 : cardSize > Theme.small ? 1.8 : 2.6) * Theme.gap
-        return tall + (read.length + 1) * apart * Theme.gap + Math.max((width < height ? Math.max(362, most + 72) : cardSize > Theme.small ? 318 : 266) * Theme.unit, card)
+        const heading = lines(kept, 1.08 * Theme.body, width < height ? column - 4 * Theme.gap : beside) * Math.ceil(1.37 * Theme.body)
+        const above = width < height ? heading + 0.6 * Theme.gap : 0
+        const card = (width < height ? 0 : heading) + 1.38 * Theme.size(72) + noted * Math.ceil(1.37 * cardSize) + (width < height ? 4.1 : cardSize > Theme.small ? 1.8 : 2.6) * Theme.gap
+        return tall + (read.length + 1) * apart * Theme.gap + above + Math.max((width < height ? Math.max(362, most + 72) : cardSize > Theme.small ? 318 : 266) * Theme.unit, card)
     }
     // What is added to that where an upright page has room for it.
     readonly property real further: !signed || width > height ? 0
@@ -130,19 +131,31 @@ PageFrame {
                 id: keepsake
                 y: parts.cardFirst ? 0 : texts.height + parts.apart
                 width: pane.width
-                height: visible ? Math.max(qr.height + 2 * view.rim, told.height) + 2 * view.pad : 0
+                // On an upright screen its first line stands over all of its width, so that the code has more room.
+                readonly property real crown: told.stacked ? first.height + 0.6 * Theme.gap : 0
+                height: visible ? crown + Math.max(qr.height + 2 * view.rim, told.height) + 2 * view.pad : 0
                 // Who is not stored has no code, and may have questions all the same.
                 visible: view.debrief.code !== "" || view.debrief.questions !== ""
                 radius: Theme.radius
                 color: Theme.white
                 border { color: Theme.amber; width: 4 * Theme.unit }
 
+                Balanced {
+                    id: first
+                    visible: told.stacked
+                    x: Theme.across(view.pad, width, parent.width)
+                    y: view.pad
+                    width: parent.width - 2 * view.pad
+                    text: view.kept
+                    font { pixelSize: Theme.body; bold: true }
+                    horizontalAlignment: Text.AlignLeft
+                }
                 // On white even where the theme is dark: a camera needs it.
                 Rectangle {
                     id: qr
                     objectName: "qr"
                     visible: view.debrief.code !== ""
-                    anchors { left: parent.left; leftMargin: view.pad + view.rim; verticalCenter: parent.verticalCenter }
+                    anchors { left: parent.left; leftMargin: view.pad + view.rim; verticalCenter: parent.verticalCenter; verticalCenterOffset: keepsake.crown / 2 }
                     width: view.square * view.debrief.squares
                     height: width
                     color: "white"
@@ -165,12 +178,13 @@ PageFrame {
                     readonly property bool stacked: view.signed && view.width < view.height
                     anchors {
                         left: qr.right; leftMargin: (qr.visible ? 1.5 : 0.25) * Theme.gap
-                        right: parent.right; rightMargin: Theme.gap
-                        verticalCenter: parent.verticalCenter
+                        right: parent.right; rightMargin: stacked ? view.pad : Theme.gap
+                        verticalCenter: parent.verticalCenter; verticalCenterOffset: keepsake.crown / 2
                     }
                     spacing: (view.signed ? 0.2 : 0.3) * Theme.gap
                     Balanced {
                         width: parent.width
+                        visible: !told.stacked
                         text: view.kept
                         font { pixelSize: Theme.body; bold: true }
                         horizontalAlignment: Text.AlignLeft

@@ -17,7 +17,12 @@ PageFrame {
     readonly property int columns: Math.max(1, Math.ceil(count / (count <= 6 ? 1 : width < height && Theme.textSize <= 1.15 ? 3 : 2)))
     readonly property int rows: Math.ceil(count / columns)
     readonly property real slot: count === 0 ? 0 : Math.floor(Math.min(
-        column / columns, 230 * Theme.unit, (room - line.implicitHeight - board.height - 2 * Theme.gap) / rows))
+        column / columns * (rows > 2 ? 1.02 : 1), (rows > 2 ? 260 : 230) * Theme.unit,
+        (room - (lined ? line.implicitHeight + Theme.gap : 0) - board.height - Theme.gap) / rows))
+    // Where there are many rows, the pairs have the room of the line above them.
+    readonly property bool lined: count > 0 && rows <= 2
+    // Where there are few, the figures are larger.
+    readonly property bool roomy: width > height && Theme.textSize <= 1.15
     // Stands up when the screen comes, one pair after another.
     property real shown: visible ? 1 : 0
     Behavior on shown { enabled: view.visible; NumberAnimation { duration: 5 * Theme.motion; easing.type: Easing.OutQuad } }
@@ -58,7 +63,7 @@ PageFrame {
             PlainText {
                 anchors.verticalCenter: parent.verticalCenter
                 text: figure.value
-                font { pixelSize: Theme.heading; bold: true }
+                font { pixelSize: view.roomy ? Theme.size(60) : Theme.heading; bold: true }
                 color: Theme.sea
                 Accessible.ignored: true
             }
@@ -69,7 +74,7 @@ PageFrame {
             text: figure.label
             horizontalAlignment: Text.AlignHCenter
             wrapMode: Text.Wrap
-            font.pixelSize: Theme.small
+            font.pixelSize: view.roomy ? Theme.reading : Theme.small
             color: Theme.faintInk
             Accessible.role: Accessible.StaticText
             Accessible.name: text + ": " + figure.spoken
@@ -89,7 +94,7 @@ PageFrame {
         Balanced {
             id: line
             width: parent.width
-            visible: view.count > 0
+            visible: view.lined
             text: view.words["result-line"]
             font.pixelSize: Theme.size(36)
             horizontalAlignment: Text.AlignLeft
@@ -99,10 +104,10 @@ PageFrame {
         Item {
             id: shelf
             // The first and the last of a row stand at the edges of the figures below them, where little is missing.
-            readonly property real inset: view.rows > 2 ? 0 : 0.04 * view.slot
+            readonly property real inset: 0.04 * view.slot
             readonly property real wish: ((parent?.width ?? 0) + 2 * inset - view.slot) / Math.max(1, view.columns - 1)
-            readonly property real pitch: view.rows <= 2 && wish > view.slot && wish < 1.08 * view.slot ? wish : view.slot
-            x: view.rows > 2 ? (parent.width - width) / 2 : Theme.across(-inset, width, parent.width)
+            readonly property real pitch: wish > view.slot && wish < 1.08 * view.slot ? wish : view.slot
+            x: view.rows > 2 && pitch !== wish ? (parent.width - width) / 2 : Theme.across(-inset, width, parent.width)
             visible: view.slot > 70 * Theme.unit
             width: pitch * (view.columns - 1) + view.slot
             height: view.slot * view.rows

@@ -56,7 +56,7 @@ Item {
             anchors.centerIn: parent
             width: 24
             height: 24
-            scale: line.badge / (line.centred ? 31 : 40)
+            scale: line.badge / (line.centred ? 31 : 35)
             ShapePath {
                 strokeColor: Theme.sea
                 strokeWidth: line.centred ? 1.7 : 2
