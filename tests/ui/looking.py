@@ -236,7 +236,7 @@ def colours(palette: str) -> dict[str, QColor]:
     assert made is not None, component.errorString()
     theme = made.property("theme")
     names = (
-        *("paper", "white", "sand", "edge", "ink", "faintInk"),
+        *("paper", "white", "shelf", "sand", "edge", "ink", "faintInk"),
         *("sea", "lightSea", "amber", "deepAmber", "leaf", "done", "held"),
     )
     found = {name: theme.property(name) for name in names}

@@ -100,10 +100,12 @@ def test_a_session_can_be_left_paused_from_within_the_panel(make_assigner: MakeD
     assigner = make_assigner(stages=["practice", "game"])
     assigner.go_to(Stage.PRACTICE)
     assigner.open_panel()
-    assert not assigner.item("action-pause").property("checked")
+    switch = assigner.item("action-pause")
+    # What is filled reads as on, so that it is not filled before.
+    assert [switch.property(name) for name in ("checked", "solid")] == [False, False]
     assigner.click("action-pause")
     assert choices(assigner)["staysPaused"]
-    assert assigner.item("action-pause").property("checked")
+    assert [switch.property(name) for name in ("checked", "solid")] == [True, True]
     assigner.shortcut(Action.PANEL)
     assert assigner.app.screens.kiosk.property("paused")
 

@@ -14,7 +14,7 @@ PanelSection {
     readonly property real space: apart
     // How high they are: higher where they have a column of their own.
     readonly property bool ample: wide && least > 0 && choices.underWay && !choices.canBeNext && Theme.textSize <= 1.15
-    readonly property real tall: (wide ? 84 : 72) * Theme.unit
+    readonly property real tall: (ample ? 90 : wide ? 84 : 72) * Theme.unit
 
     readonly property real lettering: (Theme.textSize > 1.15 ? 1 : wide ? 1.2 : 1.05) * Theme.dense
 
@@ -61,10 +61,10 @@ PanelSection {
         PanelSwitch {
             objectName: "action-pause"
             visible: actions.choices.underWay
-            filled: actions.alone
-            least: actions.mainTall
+            // As high as what it stands beside.
+            least: actions.wide || actions.alone ? actions.tall : actions.mainTall
             width: actions.mainWide(parent?.width ?? Infinity)
-            font.pixelSize: 1.12 * actions.lettering
+            font.pixelSize: actions.lettering
             words: actions.words["console-stay-paused"]
             on: actions.choices.staysPaused
             onClicked: actions.panel.wish("pause", "")

@@ -1,4 +1,4 @@
-// A button of the panel that turns one thing on and off, and shows which of the two it is.
+// A button of the panel that turns one thing on and off, and shows which of the two it is: filled when on, outlined when off.
 pragma ComponentBehavior: Bound
 import QtQuick
 import ".."
@@ -8,13 +8,13 @@ PanelButton {
 
     required property bool on
     readonly property real knob: 40 * Theme.unit
-    readonly property color front: solid ? Theme.white : tone
+    readonly property color front: on ? Theme.white : tone
 
     choosable: true
     chosen: on
     horizontalPadding: 24 * Theme.unit
     // As wide in both, so that its words stay where they are.
-    font.bold: true
+    font.bold: false
     Accessible.role: Accessible.CheckBox
 
     contentItem: Item {
@@ -33,16 +33,16 @@ PanelButton {
             least: 0.6
             Accessible.ignored: true
         }
-        // Filled when on; when off, only an outline. The knob says so without a colour.
+        // The knob says which it is without a colour.
         Rectangle {
             id: track
-            x: Theme.across(parts.width - width, width, parts.width)
-            y: (parts.height - height) / 2
+            x: Theme.across(parent.width - width, width, parent.width)
+            y: (parent.height - height) / 2
             width: 1.9 * bar.knob + 12 * Theme.unit
             height: bar.knob + 12 * Theme.unit
             radius: height / 2
-            color: bar.on ? bar.front : "transparent"
-            border { color: bar.front; width: 3 * Theme.unit }
+            color: bar.on ? Theme.white : Theme.shelf
+            border { color: bar.on ? Theme.white : Theme.faintInk; width: 3 * Theme.unit }
             Rectangle {
                 readonly property real edge: (track.height - height) / 2
                 x: Theme.across(bar.on ? track.width - edge - width : edge, width, track.width)
@@ -50,7 +50,7 @@ PanelButton {
                 width: bar.on ? bar.knob : 0.8 * bar.knob
                 height: width
                 radius: width / 2
-                color: bar.on ? (bar.solid ? Theme.sea : Theme.white) : bar.front
+                color: bar.on ? Theme.sea : Theme.faintInk
             }
         }
     }
