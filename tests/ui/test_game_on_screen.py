@@ -545,10 +545,23 @@ def test_the_time_left_to_say_that_one_is_there_is_shown_where_it_is_known(app: 
     assert shows_time()
     seconds = find(app, "seconds-left")
     assert seconds.property("text") in {"20", "19"}
+    unit = find(app, "seconds-unit")
+    assert unit.property("text") == "sec"
+    # A screen reader would speak every second.
     assert is_ignored(seconds)
+    assert is_ignored(unit)
     kiosk.ask_still_there(asks=False)
     kiosk.ask_still_there(asks=True)
     assert not shows_time()
+
+
+@STILL
+def test_going_on_stands_where_the_way_on_does_and_has_the_keyboard(app: App) -> None:
+    app.screens.kiosk.ask("stop")
+    lay_out(app.window)
+    on, stop = find(app, "stop-no"), find(app, "stop-yes")
+    assert place(on).left() > place(stop).right()
+    assert on.property("focus")
 
 
 @STILL

@@ -186,6 +186,8 @@ scroll-more = There is more below
 still-there-title = Are you still there?
 still-there-line = If not, I will get ready for the next player.
 still-there-yes = I am still here
+# the unit of the seconds that are left, below their number: short
+still-there-second = sec
 pause-title = A short break
 pause-line = It goes on in a moment.
 # time: when the people at the table are back, such as 14:05

@@ -187,6 +187,8 @@ scroll-more = Hay más abajo
 still-there-title = ¿Sigues ahí?
 still-there-line = Si no, me preparo para la siguiente persona.
 still-there-yes = Sigo aquí
+# the unit of the seconds that are left, below their number: short
+still-there-second = seg
 pause-title = Una breve pausa
 pause-line = Seguimos en un momento.
 # time: when the people at the table are back, such as 14:05

@@ -191,6 +191,8 @@ scroll-more = Sotto c'è altro
 still-there-title = Ci sei ancora?
 still-there-line = Altrimenti mi preparo per la prossima persona.
 still-there-yes = Sono ancora qui
+# the unit of the seconds that are left, below their number: short
+still-there-second = sec
 pause-title = Una breve pausa
 pause-line = Si continua tra un momento.
 # time: when the people at the table are back, such as 14:05

@@ -25,14 +25,16 @@ FocusScope {
     property bool atLeft: false
     readonly property bool large: speaker > 0 || beside > 0 && Theme.textSize <= 1.15
     readonly property real tail: speaker > 0 ? 34 * Theme.unit : 0
-    // How high it is at least.
+    // How high it is at least, and how wide where a face is beside it.
     property real least: 0
+    property real broadest: 1100 * Theme.unit
     // What there is to choose: the name of each, its words, and whether it is quiet. The first has the keyboard.
     property var choices: []
     signal chosen(string name)
     // How long it stays, in ms; 0 where that is not known. The seconds that are left then stand in place of the
-    // drawing, and a ring around them empties in small steps.
+    // drawing, with their unit below, and a ring around them empties in small steps.
     property int lasts: 0
+    property string second: ""
     // Whether a ring around the drawing swells and shrinks slowly, as a sign that all is well.
     property bool breathes: false
     readonly property int steps: 40
@@ -40,7 +42,7 @@ FocusScope {
     readonly property int secondsLeft: Math.ceil(msLeft / 1000)
     // Where nothing moves, the ring stays whole.
     readonly property int stepsLeft: Theme.motion === 0 ? steps : Math.ceil(steps * msLeft / Math.max(1, lasts))
-    readonly property real badge: (lasts > 0 ? (speaker > 0 ? 180 : 150) : large ? 150 : 112) * Theme.unit
+    readonly property real badge: (lasts > 0 ? (speaker > 0 ? 220 : 190) : large ? 150 : 112) * Theme.unit
     onLastsChanged: {
         emptying.stop()
         msLeft = lasts
@@ -70,9 +72,10 @@ FocusScope {
     Rectangle {
         id: card
         x: Math.round(calm.middle.x - width / 2)
-        y: Math.round(calm.speaker > 0 ? Math.max(2 * Theme.gap, calm.speaker - height - calm.tail - 0.5 * Theme.gap) : calm.middle.y - height / 2)
-        // As wide as what the helper says below a board.
-        width: calm.speaker > 0 ? 0.88 * parent.width : calm.beside > 0 ? 1100 * Theme.unit : Math.min(parent.width - 4 * Theme.gap, 900 * Theme.unit)
+        y: Math.round(calm.speaker > 0 ? Math.max(2 * Theme.gap, calm.speaker - height - calm.tail - 0.5 * Theme.gap)
+           : Math.max(Math.min(Theme.gap, (parent.height - height) / 2), Math.min(calm.middle.y - height / 2, parent.height - height - Theme.gap)))
+        // As wide as an upright page and what the helper says below it.
+        width: calm.speaker > 0 ? parent.width - 4 * Theme.gap : calm.beside > 0 ? calm.broadest : Math.min(parent.width - 4 * Theme.gap, 900 * Theme.unit)
         height: Math.max(calm.least, content.height + 5 * Theme.gap)
         radius: Theme.radius
         color: Theme.white
@@ -132,13 +135,24 @@ FocusScope {
                 // Read by the eye alone: a screen reader would speak every second.
                 PlainText {
                     objectName: "seconds-left"
-                    anchors.centerIn: parent
+                    anchors { centerIn: parent; verticalCenterOffset: -0.1 * calm.badge }
                     visible: calm.lasts > 0
                     width: 0.8 * parent.width
                     text: calm.secondsLeft
-                    font { pixelSize: 0.52 * calm.badge; bold: true }
+                    font { pixelSize: 0.46 * calm.badge; bold: true }
                     fontSizeMode: Text.HorizontalFit
                     minimumPixelSize: Theme.body
+                    horizontalAlignment: Text.AlignHCenter
+                    color: Theme.ink
+                    Accessible.ignored: true
+                }
+                PlainText {
+                    objectName: "seconds-unit"
+                    anchors { centerIn: parent; verticalCenterOffset: 0.26 * calm.badge }
+                    visible: calm.lasts > 0
+                    width: 0.66 * parent.width
+                    text: calm.second
+                    font.pixelSize: Math.max(24 * Theme.unit, 0.16 * calm.badge)
                     horizontalAlignment: Text.AlignHCenter
                     color: Theme.ink
                     Accessible.ignored: true
@@ -194,20 +208,23 @@ FocusScope {
             }
             Flow {
                 id: flow
-                // Two that fit beside each other are as wide, and far apart.
+                // Two that fit beside each other are as wide, and far apart. The first is where the way on is on a page.
+                layoutDirection: pair && !Theme.mirrored ? Qt.RightToLeft : Qt.LeftToRight
                 readonly property real half: (content.width - spacing) / 2
                 readonly property bool pair: buttons.count === 2 && widest <= half
+                // How many there are by now: the count changes before they are made, and their widths would then be missed.
+                property int made: 0
                 readonly property real widest: {
                     let most = 0
-                    for (let i = 0; i < buttons.count; i++)
+                    for (let i = 0; i < made; i++)
                         most = Math.max(most, (buttons.itemAt(i) as BigButton)?.implicitWidth ?? 0)
                     return most
                 }
                 readonly property real needed: {
                     let sum = 0
-                    for (let i = 0; i < buttons.count; i++)
+                    for (let i = 0; i < made; i++)
                         sum += (buttons.itemAt(i) as BigButton)?.width ?? 0
-                    return sum + (buttons.count - 1) * spacing
+                    return sum + (made - 1) * spacing
                 }
                 anchors.horizontalCenter: parent.horizontalCenter
                 width: Math.min(content.width, Math.ceil(needed))
@@ -216,6 +233,8 @@ FocusScope {
                 Repeater {
                     id: buttons
                     model: calm.choices
+                    onItemAdded: flow.made++
+                    onItemRemoved: flow.made--
                     BigButton {
                         required property var modelData
                         objectName: modelData.name

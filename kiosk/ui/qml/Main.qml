@@ -426,12 +426,15 @@ Window {
             focus: true
             sign: "M1.5 12 C6 3.5 18 3.5 22.5 12 C18 20.5 6 20.5 1.5 12 Z M12 8.5 A3.5 3.5 0 0 1 12 15.5 A3.5 3.5 0 0 1 12 8.5"
             title: root.words["still-there-title"]
+            // In a game it begins between two rows of cards.
+            least: speaker > 0 && boardPage.visible ? 730 * Theme.unit : 0
             middle: root.asking && root.wide ? stage.middle : Qt.point(root.width / 2, root.room / 2)
             speaker: root.faceBelow
             line: root.asking && root.wide ? "" : root.words["still-there-line"]
             lineSize: Theme.size(36)
             // A replay has a time of its own.
             lasts: root.replay === null ? root.kiosk.answerMs : 0
+            second: root.words["still-there-second"]
             choices: [{ name: "still-here", words: root.words["still-there-yes"] }]
             onChosen: root.kiosk.confirm()
         }
@@ -443,7 +446,11 @@ Window {
         enabled: root.kiosk.takesInput
         sourceComponent: CalmCard {
             focus: true
-            middle: root.asking && root.wide ? stage.middle : Qt.point(root.width / 2, root.room / 2)
+            // In a game it covers the cards, and cuts neither them nor their numbers.
+            middle: root.asking && root.wide ? Qt.point(stage.middle.x, boardPage.visible ? stage.y + boardPage.view.halfDown : root.room / 2)
+                  : Qt.point(root.width / 2, root.room / 2)
+            broadest: 1214 * Theme.unit
+            least: speaker > 0 && boardPage.visible ? 900 * Theme.unit : 0
             speaker: root.faceBelow
             beside: root.faceBeside
             atLeft: root.boardOnRight

@@ -91,6 +91,7 @@ FIXED = (
     "still-there-title",
     "still-there-line",
     "still-there-yes",
+    "still-there-second",
     "pause-title",
     "wait-title",
     "wait-line",

@@ -186,6 +186,7 @@ scroll-more = Unten geht es weiter
 still-there-title = Bist du noch da?
 still-there-line = Wenn nicht, mache ich alles für das nächste Spiel bereit.
 still-there-yes = Ich bin noch da
+still-there-second = Sek.
 pause-title = Eine kurze Pause
 pause-line = Gleich geht es weiter.
 # time: when the people at the table are back, such as 14:05
