@@ -464,6 +464,15 @@ def test_an_upright_screen_s_keys_take_the_helper_s_place_and_show_what_is_typed
     assert booth.sees("face")
 
 
+def test_the_way_on_says_how_many_answers_it_waits_for(booth: Booth) -> None:
+    ask(booth, required("likert"), required("pictures"))
+    assert booth.item("form-waiting").property("text") == "2 answers to go"
+    booth.app.screens.form.show_answer(ITEMS["likert"].id, 3)
+    assert booth.item("form-waiting").property("text") == "One answer to go"
+    booth.app.screens.form.show_answer(ITEMS["pictures"].id, 1)
+    assert not booth.sees("form-waiting")
+
+
 def test_one_press_of_a_digit_answers_each_scale_in_turn(booth: Booth, given: Given) -> None:
     ask(booth, ITEMS["likert"], ITEMS["differential"], ITEMS["pictures"])
     press(booth, Qt.Key.Key_3, Qt.Key.Key_1, Qt.Key.Key_5, RETURN)

@@ -134,6 +134,12 @@ form-title = A few questions
 form-calm = Take your time. There are no wrong answers.
 form-progress = Page { $number } of { $all }
 form-next = Next
+# Beside the way on, as long as answers are missing.
+form-to-go =
+    { $number ->
+        [one] One answer to go
+       *[other] { $number } answers to go
+    }
 form-skip = Go on without it
 form-not-applicable = Does not apply
 form-missing = Please answer this one first.

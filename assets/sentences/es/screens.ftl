@@ -135,6 +135,12 @@ form-title = Algunas preguntas
 form-calm = Tómate tu tiempo. No hay respuestas incorrectas.
 form-progress = Página { $number } de { $all }
 form-next = Siguiente
+# Beside the way on, as long as answers are missing.
+form-to-go =
+    { $number ->
+        [one] Falta una respuesta
+       *[other] Faltan { $number } respuestas
+    }
 form-skip = Seguir sin responder
 form-not-applicable = No procede
 form-missing = Responde primero a esta pregunta, por favor.

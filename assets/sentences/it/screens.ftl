@@ -139,6 +139,12 @@ form-title = Alcune domande
 form-calm = Prenditi il tempo che vuoi. Non ci sono risposte sbagliate.
 form-progress = Pagina { $number } di { $all }
 form-next = Avanti
+# Beside the way on, as long as answers are missing.
+form-to-go =
+    { $number ->
+        [one] Manca una risposta
+       *[other] Mancano { $number } risposte
+    }
 form-skip = Continua senza
 form-not-applicable = Non si applica
 form-missing = Rispondi prima a questa domanda, per favore.

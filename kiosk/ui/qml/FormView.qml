@@ -170,6 +170,7 @@ PageFrame {
     // Pale until the page is answered, and yet to be pressed: what is left out is pointed out then.
     quiet: form.skips || !form.complete
     way.waits: !form.skips && !form.complete
+    way.reason: form.waiting
     label: words[form.skips ? "form-skip" : "form-next"]
     beside: progress
     onWent: form.proceed()
@@ -245,11 +246,25 @@ PageFrame {
         if ((width - column) / 2 >= wide)
             return Qt.point(width - wide - ((width - column) / 2 - wide) / 2, beside)
         if (Window.height - height >= tall)
-            return Qt.point(upright ? Theme.across((width - column) / 2, wide, width) : (width - wide) / 2, height + Math.max(0, (Window.height - height - tall) / 2 - 36 * Theme.unit))
+            return Qt.point(upright ? Theme.across((width - column) / 2, wide, width) : (width - wide) / 2, height + Math.max(0, (Window.height - height - tall - 80 * Theme.unit - below) / 2))
         const free = foot - tall - Theme.gap
         return free >= begin + home.y + home.height ? Qt.point((width - wide) / 2, free) : Qt.point(width - wide, beside)
     }
 
+    // Why the way on waits: beside it, or in it where it has the page's width.
+    PlainText {
+        objectName: "form-waiting"
+        parent: within ? button : view.way
+        readonly property Item button: view.way.button
+        readonly property bool within: view.way.fills
+        visible: view.way.waits && text !== "" && width + 2 * Theme.gap < (within ? (button.width - button.implicitWidth) / 2 : view.way.freeRoom)
+        text: view.form.waiting
+        font.pixelSize: Theme.size(28)
+        color: Theme.faintInk
+        x: Theme.across(parent.width - width - (within ? 1.6 * Theme.gap : button.width + Theme.gap), width, parent.width)
+        y: (button.height - height) / 2
+        Accessible.ignored: true
+    }
     // To tap beside everything is to have done with typing.
     Item {
         objectName: "ground"
@@ -373,8 +388,8 @@ PageFrame {
         parent: view
         form: view.form
         place: view.padPlace(width, height)
-        // As wide as what the helper says, or from the cards' edge to the controls.
-        spare: view.upright ? view.width - (view.width - view.column) / 2 - 109 * Theme.unit
+        // As wide as what the helper says, or as the cards: the controls then stand in a row below.
+        spare: view.upright ? view.column
              : view.accompanied ? Window.width - view.before - view.width - Theme.gap : 0
         away: x < 0 ? (view.width - view.column) / 2 - x - width : x - (view.width + view.column) / 2
         aim: field === null ? 0 : view.begin + home.y + field.mapToItem(home, 0, field.height / 2).y

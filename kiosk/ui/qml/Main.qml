@@ -391,7 +391,7 @@ Window {
         canRepeat: root.avatar.bubble !== "" && ["practice", "game"].includes(root.kiosk.screen)
         // There is nothing to be done in a pause.
         opacity: root.kiosk.paused ? 0 : 1
-        places: !root.wide ? (stage.unwatched || root.high ? 5 : 1) : root.whole && root.speaks ? 3 : 5
+        places: !root.wide ? (stage.unwatched || root.high || formPage.keysBelow ? 5 : 1) : root.whole && root.speaks ? 3 : 5
         visible: (kiosk.inSession || kiosk.screen === "attract") && root.replay === null
         // Where the game speaks, there is always a place for the button that comes and goes.
         readonly property bool keeps: root.speaks && root.kiosk.inSession

@@ -263,8 +263,12 @@ class FormScreen(QObject):
     @Property(bool, notify=marked)
     def complete(self) -> bool:
         """Whether everything is answered or typed that is not free to be left out."""
-        asked = [item for item in self._shown if not isinstance(item, TextPage) and item.required is not False]
-        return all(item.id in self._answers or self._is_typed(item.id) for item in asked)
+        return not self._to_go()
+
+    @Property(str, notify=marked)
+    def waiting(self) -> str:
+        """Return how many answers the way on waits for; empty if none."""
+        return self._catalogue.text("form-to-go", number=self._to_go()) if self._to_go() else ""
 
     @Slot(str, int)
     def rate(self, item: str, value: int) -> None:
@@ -370,6 +374,10 @@ class FormScreen(QObject):
         """Take what is typed as answered, as far as it can be an answer."""
         for item in tuple(self._drafts):
             self.finish(item)
+
+    def _to_go(self) -> int:
+        asked = [item for item in self._shown if not isinstance(item, TextPage) and item.required is not False]
+        return sum(item.id not in self._answers and not self._is_typed(item.id) for item in asked)
 
     def _answer(self, item: str, value: Response | None) -> None:
         self._given[item] = value

@@ -134,6 +134,12 @@ form-title = Ein paar Fragen
 form-calm = Lass dir Zeit. Es gibt keine falschen Antworten.
 form-progress = Seite { $number } von { $all }
 form-next = Weiter
+# Beside the way on, as long as answers are missing.
+form-to-go =
+    { $number ->
+        [one] Noch eine Antwort
+       *[other] Noch { $number } Antworten
+    }
 form-skip = Ohne Antwort weiter
 form-not-applicable = Trifft nicht zu
 form-missing = Bitte beantworte zuerst diese Frage.

@@ -39,14 +39,12 @@ Rectangle {
     readonly property bool broad: parent.width < parent.height && Window.height - parent.height > 400 * Theme.unit
     // Or a wide screen's margin beside it.
     readonly property bool roomy: Window.width - parent.width >= 440 * Theme.unit
-    readonly property real keyWidth: numbers ? flat ? fitting(spare - 190 * Theme.unit - gap, 5, 90, 140)
+    readonly property real keyWidth: numbers ? flat ? fitting(spare - 190 * Theme.unit - gap, 5, 90, 160)
         : broad ? 150 * Theme.unit : roomy ? fitting(spare, 3, 108, 160) : 80 * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
-    readonly property real keyHeight: (numbers ? (flat ? 112 : roomy ? 80 : 68) : 60) * Theme.unit
+    readonly property real keyHeight: (numbers ? (flat ? 86 : roomy ? 80 : 68) : 60) * Theme.unit
 
     // Whether they point at their field, at one side of it.
     readonly property bool points: numbers && !flat && (x >= parent.width || x < 0) && aim > y + radius + 30 * Theme.unit && aim < y + height - radius - 30 * Theme.unit
-    // How much of their height tells what is asked, where they stand far from their field.
-    readonly property real headed: flat ? 90 * Theme.unit : 0
 
     // How wide so many keys in a row are in this room, within these units.
     function fitting(wide: real, many: int, least: real, most: real): real {
@@ -55,10 +53,10 @@ Rectangle {
     }
 
     width: numbers ? keys.width + 1.2 * Theme.gap : parent.width
-    height: headed + keys.height + 1.2 * Theme.gap
+    height: keys.height + 1.2 * Theme.gap
     x: numbers ? place.x : 0
     y: numbers ? place.y : parent.height - height
-    radius: numbers ? flat ? 40 * Theme.unit : 1.6 * Theme.radius : 0
+    radius: numbers ? flat ? 34 * Theme.unit : 1.6 * Theme.radius : 0
     color: Theme.sand
     visible: field !== null
     onFieldChanged: {
@@ -95,7 +93,7 @@ Rectangle {
             verticalAlignment: Text.AlignVCenter
         }
         background: Rectangle {
-            radius: keyboard.flat ? Math.min(width, height) / 3 : keyboard.numbers ? height / 2 : 10 * Theme.unit
+            radius: keyboard.flat ? keyboard.keyHeight / 3 : keyboard.numbers ? height / 2 : 10 * Theme.unit
             color: key.pressedIn ? Theme.sea : Theme.white
             border { color: key.hovered ? Theme.sea : Theme.edge; width: 2 * Theme.unit }
             Backspace {
@@ -133,60 +131,37 @@ Rectangle {
             PathLine { x: tail.width + 2 * Theme.unit; y: tail.height }
         }
     }
-    Item {
-        id: heading
-        visible: keyboard.headed > 0
-        x: keys.x
-        y: 0.6 * Theme.gap
-        width: keys.width
-        height: keyboard.headed - keyboard.gap
-        Text {
-            x: 14 * Theme.unit
-            width: typed.x - 2 * x
-            height: parent.height
-            verticalAlignment: Text.AlignVCenter
-            textFormat: Text.PlainText
-            text: keyboard.field?.asks ?? ""
-            font { pixelSize: Theme.size(36); bold: true }
-            fontSizeMode: Text.HorizontalFit
-            minimumPixelSize: Theme.size(24)
-            elide: Text.ElideRight
-            color: Theme.ink
-            Accessible.ignored: true
-        }
-        // What is typed, where the eyes are while they look for the keys.
-        Rectangle {
-            id: typed
-            objectName: "keys-typed"
-            x: parent.width - width - 2 * Theme.unit
-            width: others.wish - 4 * Theme.unit
-            height: parent.height
-            radius: Theme.radius
-            color: Theme.white
-            border { color: Theme.sea; width: 3 * Theme.unit }
-            Text {
-                anchors.centerIn: parent
-                width: parent.width - 24 * Theme.unit
-                textFormat: Text.PlainText
-                text: keyboard.field?.text ?? ""
-                font { pixelSize: Theme.size(50); bold: true }
-                fontSizeMode: Text.HorizontalFit
-                minimumPixelSize: Theme.size(24)
-                horizontalAlignment: Text.AlignHCenter
-                color: Theme.ink
-                Accessible.ignored: true
-            }
-        }
-    }
     Grid {
         id: keys
         x: (keyboard.width - width) / 2
-        y: keyboard.headed + 0.6 * Theme.gap
+        y: 0.6 * Theme.gap
         columns: keyboard.flat ? 2 : 1
         spacing: keyboard.gap
         horizontalItemAlignment: Grid.AlignHCenter
         Column {
             spacing: keyboard.gap
+            // What is typed, where the eyes are while they look for the keys: these stand far from their field.
+            Rectangle {
+                objectName: "keys-typed"
+                visible: keyboard.flat
+                width: 5 * keyboard.keyWidth + 4 * keyboard.gap
+                height: keyboard.keyHeight
+                radius: Theme.radius
+                color: Theme.white
+                border { color: Theme.sea; width: 3 * Theme.unit }
+                Text {
+                    anchors.centerIn: parent
+                    width: parent.width - 24 * Theme.unit
+                    textFormat: Text.PlainText
+                    text: keyboard.field?.text ?? ""
+                    font { pixelSize: Math.min(Theme.size(54), 0.64 * parent.height); bold: true }
+                    fontSizeMode: Text.HorizontalFit
+                    minimumPixelSize: Theme.size(24)
+                    horizontalAlignment: Text.AlignHCenter
+                    color: Theme.ink
+                    Accessible.ignored: true
+                }
+            }
             Repeater {
                 model: keyboard.rows
                 Row {
@@ -220,7 +195,7 @@ Rectangle {
         }
         Flow {
             id: others
-            readonly property real wish: keyboard.flat ? 190 * Theme.unit : keyboard.numbers ? 3 * keyboard.keyWidth + 2 * keyboard.gap : keyboard.room - 2 * Theme.gap
+            readonly property real wish: keyboard.flat ? Math.max(190 * Theme.unit, Math.floor(keyboard.spare - 1.2 * Theme.gap - 5 * (keyboard.keyWidth + keyboard.gap))) : keyboard.numbers ? 3 * keyboard.keyWidth + 2 * keyboard.gap : keyboard.room - 2 * Theme.gap
             width: keyboard.numbers ? wish : Math.min(wish, implicitRow)
             readonly property real implicitRow: {
                 let sum = -spacing
@@ -272,6 +247,7 @@ Rectangle {
             ScreenKey {
                 objectName: "key-done"
                 width: keyboard.numbers ? others.wish : Math.max(keyboard.keyWidth, implicitWidth)
+                height: keyboard.flat ? 2 * keyboard.keyHeight + keyboard.gap : keyboard.keyHeight
                 words: keyboard.words["keyboard-done"]
                 pressedIn: true
                 onClicked: keyboard.done()
