@@ -44,7 +44,7 @@ PageFrame {
     }
     // Whether the lines have this size at most, with the card below them in its own.
     function fits(size: real, cardSize: real, apart: real, most = 290, more = 0): bool {
-        return estimate(size, cardSize, apart, most) + more * Theme.unit <= (width < height ? 0.96 : Theme.unit < 0.9 ? 0.96 : 1) * room
+        return estimate(size, cardSize, apart, most) + more * Theme.unit <= (width < height ? 0.93 : Theme.unit < 0.9 ? 0.96 : 1) * room
     }
     // How high lines and card are about then.
     function estimate(size: real, cardSize: real, apart: real, most = 290): real {
