@@ -195,6 +195,16 @@ def test_beside_a_robot_the_board_has_the_whole_width_and_the_sentence_stands_be
     assert item_centre(said()[0]).y() > board.mapToScene(board.boundingRect().bottomLeft()).y()
 
 
+def test_cards_that_get_another_size_are_drawn_anew_for_it(app: App, qtbot: QtBot) -> None:
+    view = find(app, "board").parentItem()
+    before = view.property("cell")
+    app.window.setProperty("prepares", True)  # noqa: FBT003 - Qt's own
+    app.screens.avatar.appear(present=False)
+    lay_out(app.window)
+    assert view.property("cell") != before
+    qtbot.waitUntil(lambda: view.property("drawnCell") == view.property("cell"))
+
+
 def renderer(app: App) -> Renderer:
     """Show what a session asks for, without one."""
     return Renderer(app.screens, app.clock, lambda _: None)

@@ -93,6 +93,21 @@ FocusScope {
         + rows * widestUpright
     // A whole number, or the last column might not fit into the sum of all by a rounding error.
     readonly property real cell: Math.floor(Math.min(widest, (height - header - numbers - footer) / Math.max(1, rows)))
+    // The cell that the pictures are drawn for. Cards in sight that get another size are drawn anew a little later, in a
+    // step of its own; until then they are scaled.
+    property real drawnCell: 0
+    readonly property real drawn: Math.floor(drawnCell * share)
+    onCellChanged: if (prepares && visible && cards.count > 0) redraw.restart(); else drawAtOnce()
+    Component.onCompleted: drawAtOnce()
+    function drawAtOnce() {
+        redraw.stop()
+        drawnCell = cell
+    }
+    SequentialAnimation {
+        id: redraw
+        PauseAnimation { duration: 60 }
+        ScriptAction { script: view.drawnCell = view.cell }
+    }
     // What was last touched or turned, in this item; the assistant looks at it.
     property point touched: Qt.point(width / 2, height / 2)
     signal touchedSomething()
@@ -132,7 +147,7 @@ FocusScope {
     // Loads the pictures when the cards are dealt, in the sizes of the cards and of the tray, and not in the frame in
     // which the first one is turned or found.
     Repeater {
-        model: view.board.pictures.length === 0 ? [] : [Math.floor(view.cell * view.share), tray.card]
+        model: view.board.pictures.length === 0 ? [] : [view.drawn, tray.card]
         Item {
             id: loaded
             required property int modelData
@@ -471,6 +486,7 @@ FocusScope {
                 height: width
                 back: view.cardBack
                 shadow: view.cardShadow
+                drawn: view.drawn
                 picture: place.picture
                 up: place.up
                 shade: 1 - place.rest

@@ -15,7 +15,8 @@ Item {
     // Whether a picture that is wanted in another size is loaded beside other things; the old one is seen until then.
     property bool prepares: false
 
-    // A card is a square. Its pictures depend on its width alone: a change of both sides would load each of them twice.
+    // The width that its pictures are drawn for. A card is a square: a change of both sides would load each of them twice.
+    property real drawn: width
     // 0 closed .. 1 open; the side changes half way.
     property real turn: up ? 1 : 0
     Behavior on turn { NumberAnimation { duration: Theme.motion * 1.5; easing.type: Easing.InOutSine } }
@@ -42,7 +43,7 @@ Item {
         height: parent.height * 1.1
         opacity: card.shade * (1 - 0.4 * card.lift)
         source: card.shadow
-        sourceSize: Qt.size(1.1 * card.width, 1.1 * card.width)
+        sourceSize: Qt.size(1.1 * card.drawn, 1.1 * card.drawn)
         transform: Scale {
             origin.x: card.width * 0.55
             xScale: card.narrow
@@ -63,7 +64,7 @@ Item {
         anchors.fill: parent
         visible: card.turn < 0.5
         source: card.back
-        sourceSize: Qt.size(card.width, card.width)
+        sourceSize: Qt.size(card.drawn, card.drawn)
         transform: [
             Scale { origin.x: card.width / 2; xScale: card.narrow },
             Translate { x: card.lean }
@@ -73,7 +74,7 @@ Item {
         anchors.fill: parent
         visible: card.turn >= 0.5
         source: card.picture
-        sourceSize: Qt.size(card.width, card.width)
+        sourceSize: Qt.size(card.drawn, card.drawn)
         transform: [
             Scale { origin.x: card.width / 2; xScale: card.narrow },
             Translate { x: card.lean }
