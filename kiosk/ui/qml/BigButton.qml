@@ -11,7 +11,7 @@ Button {
     // How wide it may be at most; its words then take more lines.
     property real most: Infinity
     property bool quiet: false
-    // A quiet one that is the way on, once what the page asks for is done: paler than the others, with a lock before its words.
+    // A quiet one that is the way on, once what the page asks for is done: paler than the others.
     property bool waits: false
     // How round it is at most.
     property real corner: Infinity
@@ -21,8 +21,6 @@ Button {
     focusPolicy: Qt.StrongFocus
     horizontalPadding: 56 * Theme.unit
     verticalPadding: 26 * Theme.unit
-    // A lock and the words are in the middle together, and the button is as wide without the lock.
-    readonly property real shift: waits ? Theme.ahead * 16 * Theme.unit : 0
     font.pixelSize: Theme.body
     font.bold: true
     scale: down ? 0.96 : 1
@@ -43,7 +41,6 @@ Button {
         color: !button.quiet ? Theme.white : button.waits ? Theme.faintInk : Theme.sea
         horizontalAlignment: Text.AlignHCenter
         verticalAlignment: Text.AlignVCenter
-        transform: Translate { x: button.shift }
         // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
         wrapMode: button.width < button.implicitWidth ? Text.Wrap : Text.NoWrap
     }
@@ -54,19 +51,6 @@ Button {
         border.color: button.waits ? Theme.slot : Theme.sea
         border.width: button.quiet ? 3 * Theme.unit : 0
 
-        Drawing {
-            visible: button.waits
-            readonly property real half: Math.min(letters.advanceWidth(button.words), button.availableWidth) / 2
-            x: button.width / 2 + button.shift - Theme.ahead * (half + 22 * Theme.unit) - width / 2
-            y: (ground.height - height) / 2
-            scale: 34 * Theme.unit / 24
-            ink: Theme.faintInk
-            path: "M5.5 11 H18.5 V20.5 H5.5 Z M8.5 11 V7.5 A3.5 3.5 0 0 1 15.5 7.5 V11"
-        }
-        FontMetrics {
-            id: letters
-            font: button.font
-        }
         FocusRing {
             around: button
             radius: ground.radius + reach

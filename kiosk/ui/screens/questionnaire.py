@@ -24,6 +24,7 @@ from kiosk.experiment.items import (
     Response,
     ShortText,
     Single,
+    Slider,
     TextPage,
     can_be_kept,
     in_language,
@@ -42,10 +43,17 @@ def kept_together(text: str) -> str:
     return _LONE_LETTER.sub("\\1\N{NO-BREAK SPACE}", text)
 
 
+def _sentence(text: str) -> str:
+    """Return a text with a full stop, unless it ends with a mark of its own."""
+    return f"{text}." if text[-1:].isalnum() else text
+
+
 def item_view(item: Item, catalogue: Catalogue, scale: Callable[[str], Path]) -> dict[str, Any]:
     """Return an item as QML shows it; ``scale`` tells where the pictures of a scale are."""
     shown: dict[str, Any] = {"id": item.id, "kind": item.kind, "text": in_language(item.text, catalogue.language)}
-    shown["shown"] = kept_together(shown["text"])
+    # Words in the line, or above it, could draw touches to where they stand.
+    asked = f"{_sentence(shown['text'])} {catalogue.text('form-touch')}" if isinstance(item, Slider) else shown["text"]
+    shown["shown"] = kept_together(asked)
     shown["required"] = not isinstance(item, TextPage) and item.required is True
     shown |= item.view(catalogue.language) | {
         "source": QUrl.fromLocalFile(str(item.qml)).toString() if item.qml else ""

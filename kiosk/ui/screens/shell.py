@@ -60,7 +60,6 @@ FIXED = (
     "form-skipped",
     "form-refused",
     "form-none",
-    "form-touch",
     "form-type",
     "form-number",
     "form-less",

@@ -275,7 +275,6 @@ Item {
             leftEnd: box.item.left
             rightEnd: box.item.right
             none: box.words["form-none"]
-            touch: box.words["form-touch"]
             answered: box.answer !== undefined
             given: box.answer ?? 0
             alone: box.alone

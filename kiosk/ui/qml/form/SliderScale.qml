@@ -1,4 +1,5 @@
-// A line between two ends. Its handle is not there until the visitor puts it somewhere.
+// A line between two ends. Its handle is not there until the visitor puts it somewhere: one that stood there would
+// suggest an answer.
 pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Controls.Basic
@@ -14,7 +15,6 @@ Item {
     required property string leftEnd
     required property string rightEnd
     required property string none       // "nothing is chosen yet"
-    required property string touch      // "touch the line"
     required property bool answered
     required property int given
     required property bool alone
@@ -124,19 +124,13 @@ Item {
             // Where the middle of the handle can be.
             readonly property real inset: slider.leftPadding + scale.thickness / 2
             readonly property real span: slider.width - 2 * inset
-            // How much of the line's middle makes way for what there is to do.
-            readonly property real parted: hint.visible ? Math.min(span, hint.width + 2 * Theme.gap) : 0
             // The line itself: without it this would look like a field to type in.
-            Repeater {
-                model: 2
-                Rectangle {
-                    required property int index
-                    x: groove.inset + index * (groove.span + groove.parted) / 2
-                    y: (scale.rail - height) / 2
-                    width: (groove.span - groove.parted) / 2
-                    height: 4 * Theme.unit
-                    color: Theme.sea
-                }
+            Rectangle {
+                x: groove.inset
+                y: (scale.rail - height) / 2
+                width: groove.span
+                height: 4 * Theme.unit
+                color: Theme.sea
             }
             // A tenth of the way each, or a step where there are fewer. All are alike: a longer one would look chosen.
             Repeater {
@@ -144,9 +138,7 @@ Item {
                 model: Math.min(10, scale.range) + 1
                 Rectangle {
                     required property int index
-                    readonly property real middle: groove.inset + index / (ticks.model - 1) * groove.span
-                    visible: Math.abs(middle - slider.width / 2) >= groove.parted / 2
-                    x: middle - width / 2
+                    x: groove.inset + index / (ticks.model - 1) * groove.span - width / 2
                     y: (scale.rail - height) / 2
                     width: 3 * Theme.unit
                     height: 0.32 * scale.rail
@@ -170,22 +162,5 @@ Item {
             color: Theme.sea
             border { color: Theme.white; width: 4 * Theme.unit }
         }
-    }
-    // As long as nothing is chosen there is no handle: one that stood there would suggest an answer. What there is to do
-    // stands in the line, with ticks at both sides, until it is touched.
-    PlainText {
-        id: hint
-        objectName: `touch-${scale.item}`
-        visible: !scale.answered && !slider.pressed
-        x: slider.x + (slider.width - width) / 2
-        y: slider.y
-        width: Math.min(implicitWidth, slider.width - scale.rail)
-        height: slider.height
-        verticalAlignment: Text.AlignVCenter
-        text: scale.touch
-        font.pixelSize: scale.dense ? Theme.small : lower.font.pixelSize
-        fontSizeMode: Text.HorizontalFit
-        minimumPixelSize: 24 * Theme.unit
-        color: Theme.ink
     }
 }
