@@ -129,7 +129,7 @@ Item {
                 x: groove.inset
                 y: (scale.rail - height) / 2
                 width: groove.span
-                height: 4 * Theme.unit
+                height: 8 * Theme.unit
                 color: Theme.sea
             }
             // A tenth of the way each, or a step where there are fewer. All are alike: a longer one would look chosen.
@@ -140,8 +140,8 @@ Item {
                     required property int index
                     x: groove.inset + index / (ticks.model - 1) * groove.span - width / 2
                     y: (scale.rail - height) / 2
-                    width: 3 * Theme.unit
-                    height: 0.32 * scale.rail
+                    width: 6 * Theme.unit
+                    height: 0.4 * scale.rail
                     radius: width / 2
                     color: Theme.sea
                 }
