@@ -14,6 +14,8 @@ PageFrame {
 
     readonly property int boards: introduction.helped ? 3 : 2
     readonly property bool abreast: width > height
+    // Whether pictures in another size are loaded beside other things.
+    property bool prepares: false
     // Where the story is, in beats; without motion every board shows its end.
     property int beat: 0
     readonly property bool still: Theme.motion === 0
@@ -107,6 +109,7 @@ PageFrame {
                         shadow: view.cardShadow
                         picture: view.attract.pictures[scene.pictures[place.index] % view.attract.pictures.length] ?? ""
                         up: place.open
+                        prepares: view.prepares
                     }
                 }
             }

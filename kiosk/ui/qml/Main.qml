@@ -237,6 +237,7 @@ Window {
             name: "introduction"
             sourceComponent: IntroductionView {
                 focus: true
+                prepares: root.prepares
                 introduction: root.introduction
                 kiosk: root.kiosk
                 attract: root.attract
