@@ -318,7 +318,7 @@ def fill_panel(panel: PanelScreen) -> None:
     """Show markup in every part of the experimenter's panel."""
     words = dict.fromkeys(_names_of_the_panel(), MARKUP)
     option = [{"value": "one", "label": MARKUP}, {"value": "two", "label": BOLD}]
-    line = {"name": MARKUP, "message": PICTURE, "is_ok": False, "part": "voice"}
+    line = {"name": MARKUP, "message": PICTURE, "brief": PICTURE, "is_ok": False, "part": "voice"}
     panel.set_language(words)
     panel.show_health({"well": False, "summary": MARKUP, "lines": [line], "more": [line]})
     tile = {"name": "visitors", "title": MARKUP, "value": BOLD, "line": PICTURE}

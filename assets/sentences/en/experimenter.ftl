@@ -76,9 +76,9 @@ console-booth = The booth
 ## Health
 
 console-health = How everything is
-console-health-not = see above
 console-robot = Robot
 console-robot-none = There is none
+console-robot-absent = none set up
 console-avatar = Avatar
 console-voice = Voice
 console-voice-quiet = silent on purpose
@@ -216,8 +216,7 @@ console-quit = Leave the kiosk
 ## Alarms
 
 console-alarms = Alarms
-console-alarms-none = None
-console-alarms-none-but-notice = None; only the notice above
+console-alarms-none = none
 console-alarm-until = {" "}(over at { $time })
 console-alarm-robot-lost = The robot is lost; the avatar helps
 console-alarm-voice-lost = No sentence is heard: look at the loudspeaker and the sound settings

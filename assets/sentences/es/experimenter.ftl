@@ -76,9 +76,9 @@ console-booth = El puesto
 ## Health
 
 console-health = Estado
-console-health-not = ver arriba
 console-robot = Robot
 console-robot-none = No hay
+console-robot-absent = ninguno configurado
 console-avatar = Avatar
 console-voice = Voz
 console-voice-quiet = en silencio a propósito
@@ -216,8 +216,7 @@ console-quit = Salir del quiosco
 ## Alarmas
 
 console-alarms = Alarmas
-console-alarms-none = Ninguna
-console-alarms-none-but-notice = Ninguna; solo el aviso de arriba
+console-alarms-none = ninguna
 console-alarm-until = {" "}(terminó a las { $time })
 console-alarm-robot-lost = El robot no responde; ayuda el avatar
 console-alarm-voice-lost = Las frases no se oyen: revise el altavoz y los ajustes de sonido

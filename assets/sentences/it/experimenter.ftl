@@ -76,9 +76,9 @@ console-booth = La postazione
 ## Health
 
 console-health = Stato
-console-health-not = vedi sopra
 console-robot = Robot
 console-robot-none = Non ce n’è
+console-robot-absent = nessuno configurato
 console-avatar = Avatar
 console-voice = Voce
 console-voice-quiet = in silenzio di proposito
@@ -216,8 +216,7 @@ console-quit = Esci dal chiosco
 ## Allarmi
 
 console-alarms = Allarmi
-console-alarms-none = Nessuno
-console-alarms-none-but-notice = Nessuno; solo l’avviso qui sopra
+console-alarms-none = nessuno
 console-alarm-until = {" "}(finito alle { $time })
 console-alarm-robot-lost = Il robot non risponde più; aiuta l’avatar
 console-alarm-voice-lost = Le frasi non si sentono: guardare l’altoparlante e le impostazioni dell’audio

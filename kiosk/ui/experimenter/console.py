@@ -279,7 +279,7 @@ class Panel:
             {
                 "well": whole.is_ok,
                 "summary": whole.message,
-                "lines": [asdict(line) for line in found],
+                "lines": [{**asdict(line), "brief": line.brief} for line in found],
                 "more": [asdict(line) for line in more],
             }
         )
@@ -387,10 +387,8 @@ WORDS = (
     "console-key-enter",
     "console-alarms",
     "console-alarms-none",
-    "console-alarms-none-but-notice",
     "console-shortcuts",
     "console-health",
-    "console-health-not",
     "console-counts",
     "console-counts-unlisted",
     "console-counts-done",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import logging
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from datetime import datetime
@@ -47,6 +48,14 @@ class HealthLine:
     is_ok: bool = True
     part: str = ""
     """The part of the booth that it is about, where it can be tried out."""
+
+    @property
+    def brief(self) -> str:
+        """The state in a few words: what stands before the first "; " or ": " of the message."""
+        return _AFTERTHOUGHT.split(self.message, maxsplit=1)[0]
+
+
+_AFTERTHOUGHT = re.compile("[;:] ")
 
 
 @dataclass(frozen=True)
@@ -104,7 +113,7 @@ class HealthInputs:
 
 
 def health_lines(state: HealthInputs, catalogue: Catalogue) -> tuple[HealthLine, ...]:
-    """Return what can change during the day, in the order in which a person looks."""
+    """Return what the first page tells, in the order in which a person looks."""
     translate = catalogue.text
     return (
         _robot(state, catalogue),
@@ -117,6 +126,11 @@ def health_lines(state: HealthInputs, catalogue: Catalogue) -> tuple[HealthLine,
             translate("console-supervisor-there" if state.supervised else "console-supervisor-none"),
             state.supervised,
         ),
+        HealthLine(
+            translate("console-pin-line-name"),
+            translate("console-pin-set" if state.has_pin else "console-pin-none"),
+            state.has_pin,
+        ),
     )
 
 
@@ -126,11 +140,6 @@ def booth_lines(state: HealthInputs, study: StudyConfig, catalogue: Catalogue) -
     return (
         HealthLine(translate("console-policy"), _policy(study)),
         HealthLine(translate("console-study"), f"{study.settings.title} · {study.sha256[:SHORT_SHA]}"),
-        HealthLine(
-            translate("console-pin-line-name"),
-            translate("console-pin-set" if state.has_pin else "console-pin-none"),
-            state.has_pin,
-        ),
         HealthLine(translate("console-screen"), state.screen, state.screen_well),
         *_remote(state, catalogue),
     )
@@ -168,7 +177,7 @@ def health_summary(found: tuple[HealthLine, ...], catalogue: Catalogue) -> Healt
 def _robot(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
     name = catalogue.text("console-robot")
     if state.robot is None:
-        return HealthLine(name, catalogue.text("console-robot-none"))
+        return HealthLine(name, catalogue.text("console-robot-absent"))
     return HealthLine(name, state.robot.message, state.robot.is_ok)
 
 

@@ -214,7 +214,7 @@ class PanelScreen(QObject):
         self.opened.emit()
 
     def show_health(self, health: Row) -> None:
-        """Show how everything is: ``well``, ``summary``, and ``lines`` and ``more``, both of a health line's fields."""
+        """Show how everything is: ``well``, ``summary``, and ``lines`` and ``more`` of a health line's fields."""
         if health != self._health:
             self._health = health
             self.health_changed.emit()

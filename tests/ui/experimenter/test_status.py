@@ -136,6 +136,19 @@ def test_the_last_copy_is_told_in_the_size_that_matters(minutes: int, words: str
     assert told(replace(WELL, last_backup=copied))["Database"].message == f"written to; last copy {words}"
 
 
+@pytest.mark.parametrize(
+    ("message", "brief"),
+    [
+        ("none; if the kiosk fails, it stays off", "none"),
+        ("the last copy failed: disk full; try again", "the last copy failed"),
+        ("silent on purpose", "silent on purpose"),
+        ("no answer from 10.0.0.7:9559", "no answer from 10.0.0.7:9559"),
+    ],
+)
+def test_a_line_says_what_is_not_well_in_the_words_before_the_details(message: str, brief: str) -> None:
+    assert HealthLine("", message, is_ok=False).brief == brief
+
+
 def test_without_a_copy_yet_nothing_is_wrong() -> None:
     assert told(replace(WELL, last_backup=None))["Database"].is_ok
 

@@ -14,7 +14,7 @@ PanelSection {
     readonly property real space: apart
     // How high they are: higher where they have a column of their own.
     readonly property bool ample: wide && least > 0 && choices.underWay && !choices.canBeNext && Theme.textSize <= 1.15
-    readonly property real tall: (ample ? 90 : wide ? 84 : 72) * Theme.unit
+    readonly property real tall: (ample ? 97 : wide ? 84 : 72) * Theme.unit
 
     readonly property real lettering: (Theme.textSize > 1.15 ? 1 : wide ? 1.2 : 1.05) * Theme.dense
 
@@ -27,7 +27,7 @@ PanelSection {
         readonly property real each: (room - (row - 1) * actions.space) / row - 0.5
         least: actions.tall
         width: implicitWidth <= each ? each : room
-        font.pixelSize: actions.lettering
+        font { pixelSize: actions.lettering; bold: true }
     }
     // Whether one thing alone is pressed all day, and how high and wide that is: the largest.
     readonly property bool alone: [choices.onBreak, choices.canBeNext, choices.underWay].filter(Boolean).length === 1

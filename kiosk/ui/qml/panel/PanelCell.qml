@@ -8,11 +8,12 @@ PlainText {
     property bool heading: false
     property string column: ""      // its heading, for those who hear one field after another
     property bool number: false
+    property bool strong: false
     property real size: Theme.dense
     property real headSize: size
 
     text: words
-    font.pixelSize: heading ? headSize : size
+    font { pixelSize: heading ? headSize : size; bold: strong }
     color: heading ? Theme.faintInk : Theme.ink
     horizontalAlignment: number ? Text.AlignRight : Text.AlignLeft
     wrapMode: Text.Wrap

@@ -91,7 +91,7 @@ PanelSection {
                     x: cell.modelData.listed ? parent.width * 0.56 : parent.width - width
                     text: cell.modelData.done
                     Accessible.name: `${text} ${counts.heading}`
-                    font.pixelSize: counts.size
+                    font { pixelSize: counts.size; bold: true }
                     color: Theme.ink
                 }
             }
@@ -105,6 +105,7 @@ PanelSection {
                     words: modelData
                     column: counts.words["console-counts-" + counts.columns[index]]
                     number: true
+                    strong: modelData !== "0"
                     size: counts.size
                 }
             }

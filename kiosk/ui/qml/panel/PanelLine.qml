@@ -8,8 +8,8 @@ Item {
 
     required property var line
     property real size: Theme.dense
-    // What is said of a thing that is not well, where its own words stand elsewhere.
-    property string notWell: ""
+    // Whether a few words are enough for what is not well, because the notice describes it.
+    property bool brief: false
     // What a button behind the words says; none without.
     property string action: ""
     // What it is called for those who do not see its line.
@@ -42,8 +42,8 @@ Item {
         PlainText {
             id: message
             width: said.width - mark.width - name.width - 2 * row.space
-            text: row.line.is_ok || row.notWell === "" ? row.line.message : row.notWell
-            font.pixelSize: row.size
+            text: row.brief && !row.line.is_ok ? row.line.brief : row.line.message
+            font { pixelSize: row.size; bold: !row.line.is_ok }
             color: row.line.is_ok ? Theme.faintInk : Theme.deepAmber
             wrapMode: Text.Wrap
         }

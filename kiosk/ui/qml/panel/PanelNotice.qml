@@ -24,19 +24,28 @@ Rectangle {
                 id: matter
                 required property string modelData
                 width: sentence.width
-                spacing: 14 * Theme.unit
+                spacing: 10 * Theme.unit
+                readonly property color front: notice.health.well ? Theme.white : Theme.ink
                 PlainText {
-                    id: sign
-                    text: notice.health.well ? "✓" : "▲"
+                    visible: notice.health.well
+                    text: "✓"
+                    width: sign.width
                     font { pixelSize: notice.size; bold: true }
-                    color: notice.health.well ? Theme.white : Theme.ink
+                    color: matter.front
                     Accessible.ignored: true
+                }
+                PanelMark {
+                    id: sign
+                    visible: !notice.health.well
+                    well: false
+                    size: notice.size
+                    tone: matter.front
                 }
                 PlainText {
                     width: matter.width - sign.width - matter.spacing
                     text: matter.modelData
                     font { pixelSize: notice.size; bold: true }
-                    color: sign.color
+                    color: matter.front
                     wrapMode: Text.Wrap
                 }
             }

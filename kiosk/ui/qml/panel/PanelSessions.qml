@@ -46,12 +46,13 @@ PanelSection {
             width: parent.width
             spacing: sessions.step
             PanelMark { width: sessions.size; well: !row.modelData.odd; size: sessions.size }
-            Field { share: 0.1; words: row.modelData.participant; column: sessions.words["console-sessions-number"] }
+            Field { share: 0.1; words: row.modelData.participant; strong: true; column: sessions.words["console-sessions-number"] }
             Field { share: 0.15; words: row.modelData.when; column: sessions.words["console-sessions-begun"] }
             Field { share: 0.2; words: row.modelData.condition; column: sessions.words["console-sessions-condition"] }
             Field { share: 0.2; words: row.modelData.stage; column: sessions.words["console-sessions-stage"] }
             Field {
                 share: 0.35
+                strong: true
                 words: [row.modelData.status, row.modelData.reason, row.modelData.robot].filter(each => each !== "").join(" · ")
                 column: sessions.words["console-sessions-status"]
             }

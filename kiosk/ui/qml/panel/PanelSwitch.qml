@@ -14,7 +14,7 @@ PanelButton {
     chosen: on
     horizontalPadding: 24 * Theme.unit
     // As wide in both, so that its words stay where they are.
-    font.bold: false
+    font.bold: true
     Accessible.role: Accessible.CheckBox
 
     contentItem: Item {

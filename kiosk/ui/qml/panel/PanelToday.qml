@@ -26,7 +26,12 @@ Item {
     readonly property real room: wide && panel.alarms.length === 0 ? Math.floor(seen - below) : 0
     readonly property real each: wide ? Math.max(0, Math.min(76 * Theme.unit, 0.97 * (room - 3.9 * size) / (panel.health.lines.length + 1) - apart)) : 36 * Theme.unit
     // A line that is as high as the button in it needs no more room around it.
-    readonly property real apart: (!wide ? 9 : room > 0 ? 2 : 14) * Theme.unit
+    readonly property real apart: (!wide ? 5 : room > 0 ? 2 : 14) * Theme.unit
+
+    // What a wide screen has left is shared among the rows of the counts and of the sessions.
+    readonly property int rows: panel.records.cells.length + panel.records.sessions.length
+    readonly property real leftOver: room > 0 && Theme.textSize <= 1.15 ? room - (370 + 45 * rows) * Theme.unit : 0
+    readonly property real airy: 10 * Theme.unit + Math.max(0, Math.min(16 * Theme.unit, leftOver / (rows + 2)))
 
     // What a test takes of the line of the voice.
     readonly property string test: words[wide ? "console-test-voice" : "console-test-the-voice"]
@@ -83,8 +88,7 @@ Item {
                     size: today.size
                     least: today.each
                     beside: today.testing
-                    // The notice above tells what it is.
-                    notWell: today.words["console-health-not"]
+                    brief: true
                     // While a visitor is there, the voice is theirs.
                     action: modelData.part === "voice" && !today.panel.choices.underWay ? today.test : ""
                     actionName: today.words["console-test-the-voice"]
@@ -92,7 +96,6 @@ Item {
                     onAsked: today.panel.wish("test_voice", "")
                 }
             }
-            // What is not well need not be an alarm: then the notice stands over an empty list.
             PanelLine {
                 visible: today.panel.alarms.length === 0
                 width: parent.width
@@ -100,7 +103,7 @@ Item {
                 least: today.each
                 line: ({
                     name: today.words["console-alarms"],
-                    message: today.words[today.panel.health.well ? "console-alarms-none" : "console-alarms-none-but-notice"],
+                    message: today.words["console-alarms-none"],
                     is_ok: true,
                     part: "",
                 })
@@ -116,6 +119,7 @@ Item {
         PanelCounts {
             id: counts
             width: parent.width
+            apart: today.airy
             size: today.size
             words: today.words
             records: today.panel.records
@@ -124,6 +128,7 @@ Item {
         }
         PanelSessions {
             width: parent.width
+            apart: today.airy
             size: today.size
             least: today.wide ? Math.floor(today.foot - today.below - counts.height - today.space - Theme.unit) : 0
             words: today.words
