@@ -125,7 +125,6 @@ FocusScope {
     property list<int> latest: []
     // The middle of the cards; upright, that of the page, as the face below it.
     readonly property real middle: upright ? width / 2 : table.x + table.width / 2
-    readonly property real halfDown: table.y + table.height / 2
     // Every pair was found, and is in the tray.
     signal won()
     // The first pair was found.

@@ -28,6 +28,8 @@ FocusScope {
     // How high it is at least, and how wide where a face is beside it.
     property real least: 0
     property real broadest: 1100 * Theme.unit
+    // How much of what is below is covered; a card that covers most of it hides the remains as well.
+    property real veil: 0.94
     // What there is to choose: the name of each, its words, and whether it is quiet. The first has the keyboard.
     property var choices: []
     signal chosen(string name)
@@ -65,7 +67,7 @@ FocusScope {
     Rectangle {
         anchors.fill: parent
         color: Theme.paper
-        opacity: 0.94
+        opacity: calm.veil
         MouseArea { anchors.fill: parent; hoverEnabled: true; preventStealing: true; Accessible.ignored: true }
     }
 

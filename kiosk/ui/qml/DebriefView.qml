@@ -11,7 +11,7 @@ PageFrame {
     required property string labName
 
     // As much of the height as the text leaves, so that a page that fits does not scroll.
-    readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min((signed && width < height ? most : 350) * Theme.unit, room - texts.height - keepsake.crown - 2 * pad - 2 * rim - (width < height ? 1.1 : 1) * Theme.gap))
+    readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min((signed && width < height ? most : paired ? 310 : 350) * Theme.unit, room - texts.height - keepsake.crown - 2 * pad - 2 * rim - (width < height ? 1.1 : 1) * Theme.gap))
     // How large the code may be on an upright page, where the words beside it have to find room.
     readonly property real most: width < height && fits(Theme.size(34), noted, apart, 400) ? 400 : 340
     // How far the white around the code reaches beyond its own frame, for round corners.
@@ -22,7 +22,11 @@ PageFrame {
     // Lines with drawings stand below each other, as large as the page has room for above the card; on a page that has too
     // little for that, without the drawings.
     readonly property bool signed: debrief.lines.length > 0 && debrief.lines[0].sign !== "" && fits(Theme.small, Theme.small, 0.5)
-    readonly property real size: signed ? (width < height ? [38, 36, 34, 32, 30, 29] : [32, 30, 29]).map(Theme.size).find(size => fits(size, noted, apart, most > 340 ? most : 290)) ?? Theme.small
+    // Beside the helper, lines with drawings stand two by two where each has three short lines at most.
+    readonly property bool pairable: accompanied && width > height && read.length > 2 && read.length % 2 === 0 && read[0].sign !== ""
+        && read.every(line => broken(line.text, Theme.size(32), (column - 2 * Theme.gap) / 2 - Theme.size(80) - Theme.gap) <= 3)
+    readonly property bool paired: signed && pairable
+    readonly property real size: paired ? Theme.size(32) : signed ? (width < height ? [38, 36, 34, 32, 30, 29] : [32, 30, 29]).map(Theme.size).find(size => fits(size, noted, apart, most > 340 ? most : 290)) ?? Theme.small
         : room < 720 * Theme.unit ? Theme.small : Theme.reading
     // What stands on the card is read from it at home, in a photograph.
     readonly property real noted: [Theme.body, Theme.reading].find(size => fits(Theme.size(32), size, width < height ? 0.5 : 0.4)) ?? Theme.small
@@ -50,14 +54,15 @@ PageFrame {
     function estimate(size: real, cardSize: real, apart: real, most = 290): real {
         // Small letters are set on whole pixels, which makes them wider.
         const wide = (column - 2.5 * size - Theme.gap) * (Theme.unit < 0.9 ? 0.95 : 0.98)
-        const tall = read.reduce((sum, line) => sum + Math.max(2.5 * size, broken(line.text, size, wide) * (leading + 0.06) * Math.ceil(1.37 * size)), 0)
+        const tall = pairable ? read.length / 2 * rowHigh : read.reduce((sum, line) => sum + Math.max(2.5 * size, broken(line.text, size, wide) * (leading + 0.06) * Math.ceil(1.37 * size)), 0)
         const beside = (column - most * Theme.unit - (width < height ? 4 : 2.5) * Theme.gap) * 0.95
         const noted = [debrief.scanning, width < height ? words["debrief-code"] : "", debrief.withdrawing, debrief.returning, debrief.questions].reduce((sum, text) => sum + lines(text, cardSize, beside), 0)
         const heading = lines(kept, 1.08 * Theme.body, width < height ? column - 4 * Theme.gap : beside) * Math.ceil(1.37 * Theme.body)
         const above = width < height ? heading + 0.6 * Theme.gap : 0
         const card = (width < height ? 0 : heading) + 1.38 * Theme.size(72) + noted * Math.ceil(1.37 * cardSize) + (width < height ? 4.1 : cardSize > Theme.small ? 1.8 : 2.6) * Theme.gap
-        return tall + (read.length + 1) * apart * Theme.gap + above + Math.max((width < height ? Math.max(362, most + 72) : cardSize > Theme.small ? 318 : 266) * Theme.unit, card)
+        return tall + ((pairable ? read.length / 2 : read.length) + 1) * apart * Theme.gap + above + Math.max((width < height ? Math.max(362, most + 72) : cardSize > Theme.small ? 318 : 266) * Theme.unit, card)
     }
+    readonly property real rowHigh: 3 * (leading + 0.06) * Math.ceil(1.37 * Theme.size(32))
     // What is added to that where an upright page has room for it.
     readonly property real further: !signed || width > height ? 0
         : Math.max(0, Math.min(Theme.gap, (0.92 * room - estimate(size, noted, apart, most > 340 ? most : 290)) / read.length))
@@ -81,6 +86,15 @@ PageFrame {
     onVisibleChanged: way.focus = true
     Keys.onPressed: event => pane.turn(event)
 
+    component Point: SignedLine {
+        required property var modelData
+        text: modelData.text
+        sign: view.signed ? modelData.sign : ""
+        size: view.size
+        leading: view.signed ? view.leading : 1.08
+        // Among lines with headings, one without is a heading itself.
+        strong: lead === "" && view.read.some(line => line.text.includes("\n"))
+    }
     ScrollPane {
         id: pane
         width: parent?.width ?? 0
@@ -96,32 +110,42 @@ PageFrame {
             height: texts.height + keepsake.height + (keepsake.visible ? apart : 0)
             // Lines and card stand further apart than the lines, by half of what is free.
             readonly property real apart: Theme.gap + (view.signed ? Math.max(0, Math.min(1.5 * Theme.gap, (view.room - texts.height - keepsake.height - Theme.gap) / 2)) : 0)
-            Row {
+            Item {
                 id: texts
                 y: parts.cardFirst ? keepsake.height + parts.apart : 0
                 readonly property var lines: view.read
                 readonly property bool halved: pane.width > 1100 * Theme.unit && lines.length > 1 && !view.signed
                 readonly property int first: halved ? view.half(lines.map(line => line.text)) : lines.length
+                readonly property real half: (width - 2 * Theme.gap) / 2
                 width: pane.width
-                spacing: 2 * Theme.gap
-                Repeater {
-                    model: texts.halved ? 2 : 1
-                    Column {
-                        id: part
-                        required property int index
-                        width: texts.halved ? (texts.width - texts.spacing) / 2 : texts.width
-                        spacing: (view.signed ? view.apart : view.room < 720 * Theme.unit ? 0.6 : 1) * Theme.gap + view.further
-                        Repeater {
-                            model: part.index === 0 ? texts.lines.slice(0, texts.first) : texts.lines.slice(texts.first)
-                            SignedLine {
-                                required property var modelData
-                                width: part.width
-                                text: modelData.text
-                                sign: view.signed ? modelData.sign : ""
-                                size: view.size
-                                leading: view.signed ? view.leading : 1.08
-                                // Among lines with headings, one without is a heading itself.
-                                strong: lead === "" && view.read.some(line => line.text.includes("\n"))
+                height: view.paired ? pairs.height : below.height
+                // Two by two, in the order in which they are read.
+                Grid {
+                    id: pairs
+                    columns: 2
+                    columnSpacing: 2 * Theme.gap
+                    rowSpacing: view.apart * Theme.gap
+                    Repeater {
+                        model: view.paired ? texts.lines : []
+                        Point {
+                            width: texts.half
+                            least: view.rowHigh
+                        }
+                    }
+                }
+                Row {
+                    id: below
+                    spacing: 2 * Theme.gap
+                    Repeater {
+                        model: view.paired ? 0 : texts.halved ? 2 : 1
+                        Column {
+                            id: part
+                            required property int index
+                            width: texts.halved ? texts.half : texts.width
+                            spacing: (view.signed ? view.apart : view.room < 720 * Theme.unit ? 0.6 : 1) * Theme.gap + view.further
+                            Repeater {
+                                model: part.index === 0 ? texts.lines.slice(0, texts.first) : texts.lines.slice(texts.first)
+                                Point { width: part.width }
                             }
                         }
                     }

@@ -447,10 +447,9 @@ Window {
         enabled: root.kiosk.takesInput
         sourceComponent: CalmCard {
             focus: true
-            // In a game it covers the cards, and cuts neither them nor their numbers.
-            middle: root.asking && root.wide ? Qt.point(stage.middle.x, boardPage.visible ? stage.y + boardPage.view.halfDown : root.room / 2)
-                  : Qt.point(root.width / 2, root.room / 2)
+            middle: root.asking && root.wide ? stage.middle : Qt.point(root.width / 2, root.room / 2)
             broadest: 1214 * Theme.unit
+            veil: beside > 0 ? 1 : 0.94
             least: speaker > 0 && boardPage.visible ? 900 * Theme.unit : 0
             speaker: root.faceBelow
             beside: root.faceBeside

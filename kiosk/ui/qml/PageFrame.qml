@@ -49,7 +49,8 @@ FocusScope {
 
     // The last of several lines, if the helper can say it: a bubble holds a short text only.
     function sayable(lines: var): string {
-        const last = (lines[lines.length - 1]?.text ?? "").replace("\n", " ")
+        // A heading has no full stop of its own.
+        const last = (lines[lines.length - 1]?.text ?? "").replace(/([^.,;:!?…。！？])\n/, "$1. ").replace("\n", " ")
         return accompanied && lines.length > 1 && last.length <= 130 ? last : ""
     }
 

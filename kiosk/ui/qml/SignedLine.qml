@@ -41,7 +41,10 @@ Item {
     // Whether the drawing stands in the middle of the lines, and not at the first of them.
     property bool centred: false
 
-    height: Math.max(words.height, mark.visible ? mark.height : 0)
+    // How high it is at least, so that lines beside each other begin together.
+    property real least: 0
+
+    height: Math.max(words.height, mark.visible ? mark.height : 0, least)
 
     Rectangle {
         id: mark
