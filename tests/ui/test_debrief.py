@@ -7,7 +7,7 @@ from urllib.parse import unquote
 
 import pytest
 import segno
-from PySide6.QtCore import QPoint, QRectF
+from PySide6.QtCore import QPoint, QPointF, QRectF
 from PySide6.QtGui import QImage
 from pytestqt.qtbot import QtBot
 
@@ -177,3 +177,23 @@ def test_the_helper_says_the_last_line_where_it_stands_beside_the_page(booth: Bo
     booth.app.screens.avatar.appear(present=False)
     booth.settle()
     assert said() == {False}
+
+
+def test_four_points_stand_two_by_two_beside_the_helper_who_says_the_fifth_in_whole_sentences(
+    booth: Booth, qtbot: QtBot
+) -> None:
+    paragraphs = (*(f"Point {number}\nThis is short." for number in range(4)), "It is no test\nYou can ask us.")
+    page = Page(
+        title="What we study", paragraphs=paragraphs, signs=("compare", "seen", "chance", "questions", "helper")
+    )
+    booth.app.screens.debrief.show(page)
+    booth.app.screens.kiosk.show("debrief")
+    booth.settle()
+    texts = {str(item.property("text")): item for item in items(booth.app.window.contentItem())}
+
+    def place(number: int) -> QPointF:
+        return texts[f"Point {number}"].mapToScene(QPointF(0, 0))
+
+    qtbot.waitUntil(lambda: place(0).x() == place(2).x() < place(1).x() == place(3).x())
+    qtbot.waitUntil(lambda: place(0).y() == place(1).y() < place(2).y() == place(3).y())
+    assert lies_in(texts["It is no test. You can ask us."], "Bubble")
