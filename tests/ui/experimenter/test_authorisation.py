@@ -291,7 +291,7 @@ def test_without_a_pin_nothing_is_asked_but_the_reason(make_assigner: MakeDesk) 
     assigner.type("1")
     assigner.shortcut(Action.PANEL)
     assert assigner.panel.is_open
-    lines = assigner.panel.property("health")["more"]
+    lines = assigner.panel.property("health")["lines"]
     assert [line["message"] for line in lines if line["name"] == "PIN"] == [
         "none; every session is a trial, and everyone can open this panel"
     ]
