@@ -91,7 +91,7 @@ def test_a_new_language_comes_back_from_translators_and_can_be_run(name: str, st
     plan = read.plan("nl")
     assert plan.information.consent.title == "Before you begin (nl)"
     assert plan.questionnaires[0].items[0].text["nl"] == "I liked it. (nl)"
-    assert plan.catalogue.text("consent-required") == "needed to take part (nl)"
+    assert plan.catalogue.text("consent-required") == "needed (nl)"
     assert not any("still" in warning and "'nl'" in warning for warning in study_warnings(read))
     assert all(unit.state is State.DONE for unit in dutch(study).units())
     assert "# Asked after the game." in (study.parent / "form.toml").read_text("utf-8")

@@ -48,7 +48,7 @@ def test_nothing_is_ticked_beforehand_and_the_required_boxes_say_so(booth: Booth
     for purpose in PAGE.purposes:
         box = booth.item(f"purpose-{purpose.id}")
         assert not box.property("on")
-        assert says(box, "needed to take part" if purpose.required else "up to you")
+        assert says(box, "needed" if purpose.required else "up to you")
 
 
 @pytest.mark.usefixtures("done")
@@ -57,7 +57,7 @@ def test_a_ticked_box_says_that_it_is_agreed_to_and_moves_nothing(booth: Booth) 
     height = box.height()
     booth.app.screens.consent.show_ticks(frozenset({"take_part"}))
     assert says(box, "agreed")
-    assert not says(box, "needed to take part")
+    assert not says(box, "needed")
     assert box.height() == height
 
 

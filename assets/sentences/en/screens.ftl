@@ -32,7 +32,7 @@ return-as-new = This code is not known here. You can play all the same, as a new
 
 ## Consent
 
-consent-required = needed to take part
+consent-required = needed
 consent-optional = up to you
 consent-agreed = agreed
 consent-missing = Please tick this box if you want to take part.

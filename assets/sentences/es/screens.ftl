@@ -33,7 +33,7 @@ return-as-new = Aquí no se conoce este código. Puedes jugar igualmente, como s
 
 ## Consent
 
-consent-required = necesario para participar
+consent-required = necesario
 consent-optional = como prefieras
 consent-agreed = de acuerdo
 consent-missing = Si quieres participar, marca esta casilla.

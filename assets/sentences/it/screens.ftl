@@ -33,7 +33,7 @@ return-as-new = Qui questo codice non è conosciuto. Puoi giocare lo stesso, com
 
 ## Consent
 
-consent-required = necessario per partecipare
+consent-required = necessario
 consent-optional = come preferisci
 consent-agreed = d'accordo
 consent-missing = Se vuoi partecipare, spunta questa casella.

@@ -35,6 +35,11 @@ PageFrame {
 
     beside: toggle
 
+    // The place of a box, and how high the box alone is.
+    component Purpose: Item {
+        property real bare: 0
+    }
+
     BigButton {
         id: toggle
         objectName: "read-more"
@@ -132,6 +137,16 @@ PageFrame {
             Column {
                 id: boxes
                 width: pane.width
+                readonly property bool needs: view.consent.purposes.some(purpose => purpose.required)
+                // How much further apart stands what is not needed, as far as the page has room.
+                readonly property real further: {
+                    if (!view.short || !points.airy)
+                        return 0
+                    let free = pane.room - points.height - 0.6 * Theme.gap - waits.height
+                    for (let i = 0; i < purposes.count; i++)
+                        free -= ((purposes.itemAt(i) as Purpose)?.bare ?? 0) + spacing
+                    return Math.max(0, Math.min((view.width < view.height ? 0.8 : 0.5) * Theme.gap, free))
+                }
                 spacing: (points.airy && view.short ? (view.width < view.height ? 1.1 : 0.67) : 0.5) * Theme.gap
                 // What is still to be ticked, or that nothing is.
                 PlainText {
@@ -141,7 +156,7 @@ PageFrame {
                         id: letters
                         font: waits.font
                     }
-                    visible: view.consent.purposes.some(purpose => purpose.required)
+                    visible: boxes.needs
                     width: boxes.width
                     height: Math.ceil(letters.height)
                     text: view.consent.waiting || view.words["consent-ready"]
@@ -154,33 +169,42 @@ PageFrame {
                 Repeater {
                     id: purposes
                     model: view.consent.purposes
-                    TickBox {
+                    Purpose {
+                        id: purpose
+                        bare: tick.height
                         required property var modelData
-                        objectName: "purpose-" + modelData.id
+                        required property int index
+                        // Whether it is the first one below all that are needed.
+                        readonly property bool apart: (view.consent.purposes[index - 1]?.required ?? false)
+                            && view.consent.purposes.slice(index).every(other => !other.required)
                         width: boxes.width
-                        large: points.airy && view.short
-                        broad: large && view.width < view.height
-                        roomy: view.short && Theme.textSize <= 1.15
-                        words: modelData.text
-                        needed: modelData.required
-                        on: view.consent.ticks.includes(modelData.id)
-                        note: view.words[modelData.required ? "consent-required" : "consent-optional"]
-                        agreed: view.words["consent-agreed"]
-                        warning: view.consent.missing.includes(modelData.id) ? view.words["consent-missing"] : ""
-                        onClicked: view.consent.tick(modelData.id, !on)
+                        height: tick.y + tick.height
+                        TickBox {
+                            id: tick
+                            objectName: "purpose-" + purpose.modelData.id
+                            y: purpose.apart ? boxes.further : 0
+                            width: parent.width
+                            large: points.airy && view.short
+                            broad: large && view.width < view.height
+                            roomy: view.short && Theme.textSize <= 1.15
+                            words: purpose.modelData.text
+                            lighter: !purpose.modelData.required && boxes.needs
+                            on: view.consent.ticks.includes(purpose.modelData.id)
+                            note: view.words[purpose.modelData.required ? "consent-required" : "consent-optional"]
+                            agreed: view.words["consent-agreed"]
+                            warning: view.consent.missing.includes(purpose.modelData.id) ? view.words["consent-missing"] : ""
+                            onClicked: view.consent.tick(purpose.modelData.id, !on)
+                        }
+                        Connections {
+                            target: view.consent
+                            function onMissed(missed: string) {
+                                if (missed !== purpose.modelData.id)
+                                    return
+                                tick.forceActiveFocus(Qt.TabFocusReason)
+                                pane.reveal(tick)
+                            }
+                        }
                     }
-                }
-            }
-        }
-    }
-    Connections {
-        target: view.consent
-        function onMissed(purpose: string) {
-            for (let i = 0; i < purposes.count; i++) {
-                const box = purposes.itemAt(i) as TickBox
-                if (box.objectName === "purpose-" + purpose) {
-                    box.forceActiveFocus(Qt.TabFocusReason)
-                    pane.reveal(box)
                 }
             }
         }

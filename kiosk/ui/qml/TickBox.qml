@@ -6,9 +6,10 @@ import "."
 Choosable {
     id: box
 
-    // What it is, in a word or two, and whether it has to be ticked.
+    // What it is, in a word or two.
     property string note: ""
-    property bool needed: false
+    // Whether it is told apart from others that have to be ticked.
+    property bool lighter: false
     // What stands there instead, once it is ticked.
     property string agreed: ""
     property string warning: ""
@@ -30,7 +31,7 @@ Choosable {
         radius: Theme.radius
         // Only what is ticked is filled; the pointer over it changes the edge alone.
         color: box.on ? Theme.sand : Theme.white
-        border { color: box.warning ? Theme.deepAmber : Theme.sea; width: (box.warning || box.hovered || box.on ? 4 : 2) * Theme.unit }
+        border { color: box.warning ? Theme.deepAmber : box.lighter && !box.on && !box.hovered ? Theme.slot : Theme.sea; width: (box.warning || box.hovered || box.on ? 4 : 2) * Theme.unit }
         FocusRing {
             around: box
             reach: 7 * Theme.unit
@@ -47,7 +48,7 @@ Choosable {
         readonly property real noteWidth: Math.max(tag.implicitWidth, unticked.advanceWidth, ticked.advanceWidth)
         TextMetrics {
             id: unticked
-            font { family: tag.font.family; pixelSize: tag.font.pixelSize; bold: box.needed }
+            font { family: tag.font.family; pixelSize: tag.font.pixelSize }
             text: box.note
         }
         TextMetrics {
@@ -121,7 +122,7 @@ Choosable {
             y: parts.below ? told.y + told.height - height : (parts.height - height) / 2
             textFormat: Text.PlainText
             text: parts.note
-            font { pixelSize: box.large ? Theme.size(28) : Theme.small; bold: box.needed || text !== box.note }
+            font { pixelSize: box.large ? Theme.size(28) : Theme.small; bold: text !== box.note }
             color: box.on ? Theme.sea : Theme.faintInk
             Accessible.ignored: true
         }

@@ -32,7 +32,7 @@ return-as-new = Diesen Code kennen wir hier nicht. Du kannst trotzdem spielen, w
 
 ## Consent
 
-consent-required = nötig, um teilzunehmen
+consent-required = nötig
 consent-optional = wie du möchtest
 consent-agreed = einverstanden
 consent-missing = Bitte kreuze das an, wenn du teilnehmen möchtest.
