@@ -448,9 +448,7 @@ def test_five_options_of_a_wide_page_stand_in_thirds_and_leave_no_empty_place(
     ]
 
 
-def test_an_upright_screen_s_keys_take_the_helper_s_place_and_show_what_is_typed(
-    make_booth: MakeBooth, qtbot: QtBot
-) -> None:
+def test_an_upright_screen_s_keys_take_the_helper_s_place(make_booth: MakeBooth, qtbot: QtBot) -> None:
     booth = make_booth()
     window = booth.app.window
     window.resize(1080, 1920)
@@ -460,8 +458,7 @@ def test_an_upright_screen_s_keys_take_the_helper_s_place_and_show_what_is_typed
     booth.click("number-alone")
     assert not booth.sees("face")
     booth.click("key-2")
-    (shown,) = booth.item("keys-typed").childItems()
-    assert shown.property("text") == booth.item("number-alone").property("text") == "2"
+    assert booth.item("number-alone").property("text") == "2"
     booth.click("key-done")
     assert booth.sees("face")
 

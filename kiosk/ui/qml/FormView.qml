@@ -242,7 +242,7 @@ PageFrame {
         const beside = keyboard.field === null ? 0
             : Math.max(0, Math.min(height - tall, foot - tall - Theme.gap, begin + home.y + keyboard.field.mapToItem(home, 0, keyboard.field.height / 2).y - tall / 2))
         if (Math.max(before, after) >= wide)
-            return Qt.point(after >= wide ? width + (after - (accompanied ? Theme.gap : 0) - wide) / 2 : -(before + wide) / 2, 4.4 * Theme.gap)
+            return Qt.point(after >= wide ? width + (after - (accompanied ? Theme.gap : 0) - wide) / 2 : -(before + wide) / 2, Math.max(4.4 * Theme.gap, Math.min(begin + home.y, 6.5 * Theme.gap)))
         if ((width - column) / 2 >= wide)
             return Qt.point(width - wide - ((width - column) / 2 - wide) / 2, beside)
         if (Window.height - height >= tall)

@@ -8,7 +8,7 @@ Choosable {
 
     // What it is, in a word or two.
     property string note: ""
-    // Whether it is told apart from others that have to be ticked.
+    // Whether it may be left out, beside others that are needed.
     property bool lighter: false
     // What stands there instead, once it is ticked.
     property string agreed: ""

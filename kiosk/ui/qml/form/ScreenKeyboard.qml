@@ -41,10 +41,10 @@ Rectangle {
     readonly property bool roomy: Window.width - parent.width >= 440 * Theme.unit
     readonly property real keyWidth: numbers ? flat ? fitting(spare - 190 * Theme.unit - gap, 5, 90, 160)
         : broad ? 150 * Theme.unit : roomy ? fitting(spare, 3, 108, 160) : 80 * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
-    readonly property real keyHeight: (numbers ? (flat ? 86 : roomy ? 80 : 68) : 60) * Theme.unit
+    readonly property real keyHeight: (numbers ? (flat ? 130 : roomy ? 70 : 68) : 60) * Theme.unit
 
     // Whether they point at their field, at one side of it.
-    readonly property bool points: numbers && !flat && (x >= parent.width || x < 0) && aim > y + radius + 30 * Theme.unit && aim < y + height - radius - 30 * Theme.unit
+    readonly property bool points: numbers && !flat && (x >= parent.width || x < 0) && aim > y + radius + 26 * Theme.unit && aim < y + height - radius - 30 * Theme.unit
 
     // How wide so many keys in a row are in this room, within these units.
     function fitting(wide: real, many: int, least: real, most: real): real {
@@ -87,19 +87,19 @@ Rectangle {
             text: key.drawn ? "" : key.words
             // Digits are looked for, and larger than words.
             readonly property bool digit: keyboard.numbers && !key.pressedIn
-            font { pixelSize: Math.min(digit ? Theme.size(keyboard.flat ? 46 : 42) : keyboard.flat ? Theme.size(42) : Theme.body, 0.56 * keyboard.keyHeight); bold: key.pressedIn || digit }
+            font { pixelSize: Math.min(digit ? Theme.size(keyboard.flat ? 60 : 42) : keyboard.flat ? Theme.size(42) : Theme.body, 0.56 * keyboard.keyHeight); bold: key.pressedIn || digit }
             color: key.pressedIn ? Theme.white : Theme.ink
             horizontalAlignment: Text.AlignHCenter
             verticalAlignment: Text.AlignVCenter
         }
         background: Rectangle {
-            radius: keyboard.flat ? keyboard.keyHeight / 3 : keyboard.numbers ? height / 2 : 10 * Theme.unit
+            radius: keyboard.flat ? 26 * Theme.unit : keyboard.numbers ? height / 2 : 10 * Theme.unit
             color: key.pressedIn ? Theme.sea : Theme.white
             border { color: key.hovered ? Theme.sea : Theme.edge; width: 2 * Theme.unit }
             Backspace {
                 visible: key.drawn
                 anchors.centerIn: parent
-                scale: (keyboard.flat ? 2.4 : keyboard.numbers ? 2.1 : 1.5) * Theme.unit
+                scale: (keyboard.flat ? 3 : keyboard.numbers ? 2.1 : 1.5) * Theme.unit
             }
         }
     }
@@ -140,28 +140,6 @@ Rectangle {
         horizontalItemAlignment: Grid.AlignHCenter
         Column {
             spacing: keyboard.gap
-            // What is typed, where the eyes are while they look for the keys: these stand far from their field.
-            Rectangle {
-                objectName: "keys-typed"
-                visible: keyboard.flat
-                width: 5 * keyboard.keyWidth + 4 * keyboard.gap
-                height: keyboard.keyHeight
-                radius: Theme.radius
-                color: Theme.white
-                border { color: Theme.sea; width: 3 * Theme.unit }
-                Text {
-                    anchors.centerIn: parent
-                    width: parent.width - 24 * Theme.unit
-                    textFormat: Text.PlainText
-                    text: keyboard.field?.text ?? ""
-                    font { pixelSize: Math.min(Theme.size(54), 0.64 * parent.height); bold: true }
-                    fontSizeMode: Text.HorizontalFit
-                    minimumPixelSize: Theme.size(24)
-                    horizontalAlignment: Text.AlignHCenter
-                    color: Theme.ink
-                    Accessible.ignored: true
-                }
-            }
             Repeater {
                 model: keyboard.rows
                 Row {
@@ -247,7 +225,6 @@ Rectangle {
             ScreenKey {
                 objectName: "key-done"
                 width: keyboard.numbers ? others.wish : Math.max(keyboard.keyWidth, implicitWidth)
-                height: keyboard.flat ? 2 * keyboard.keyHeight + keyboard.gap : keyboard.keyHeight
                 words: keyboard.words["keyboard-done"]
                 pressedIn: true
                 onClicked: keyboard.done()
