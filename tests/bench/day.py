@@ -152,10 +152,12 @@ def shares(folder: Path, seconds: float) -> None:
 def main() -> int:
     """Measure what is asked for."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("--sessions", type=int, default=200, help="sessions for memory; 0 leaves it out")
+    parser.add_argument("--sessions", type=int, default=200, help="sessions for memory, 3 or more; 0 leaves it out")
     parser.add_argument("--gaps", type=int, default=3, help="sessions in real time; 0 leaves them out")
     parser.add_argument("--seconds", type=float, default=60, help="time for each share; 0 leaves them out")
     asked = parser.parse_args()
+    if asked.sessions in (1, 2):
+        parser.error("--sessions: a slope needs 3 sessions or more")
     os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
     for measure, amount in ((memory, asked.sessions), (gaps, asked.gaps), (shares, asked.seconds)):
         if amount:
