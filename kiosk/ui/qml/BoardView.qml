@@ -500,12 +500,13 @@ FocusScope {
                 objectName: "missed-" + place.index
                 visible: place.missed && place.turning === 1
                 anchors { centerIn: face; horizontalCenterOffset: face.shift }
-                width: face.width * face.scale + 4 * Theme.unit
+                width: face.width * face.scale
                 height: width
                 rotation: face.rotation
                 radius: width * 0.12
                 color: "transparent"
-                border { color: Theme.deepAmber; width: 4 * Theme.unit }
+                // Not the colour of a hint.
+                border { color: Theme.faintInk; width: 4 * Theme.unit }
             }
             SequentialAnimation {
                 id: coming

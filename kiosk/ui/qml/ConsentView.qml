@@ -91,7 +91,7 @@ PageFrame {
                         width: parent?.width ?? 0
                         text: modelData.text
                         sign: modelData.sign
-                        size: points.airy ? Theme.size(38) : Theme.body
+                        size: points.airy ? Theme.size(view.width < view.height ? 38 : 34) : Theme.body
                     }
                 }
             }

@@ -326,6 +326,7 @@ Window {
             atLeft: root.boardOnRight
             least: (large ? 625 : 500) * Theme.unit
             breathes: true
+            veil: beside > 0 ? 1 : 0.94
             sign: "M8 4 V20 M16 4 V20"
             thick: 4.7
             title: root.words["pause-title"]
