@@ -62,8 +62,17 @@ docs/reference/what-to-type.md lists more, and `recollect COMMAND --help` shows 
 
 # A file of tests stays together, as its fixtures do; nothing is timed in a process that has company.
 # Files keep their order, in which the longest come first; a process that dies ends the run instead of stalling it.
+# Some tests wait for a program or for a timer: one process more than there are cores works meanwhile.
 PARALLEL = (
-    *("-n", "auto", "--dist", "loadfile", "--no-loadscope-reorder", "--max-worker-restart", "0"),
+    *(
+        "-n",
+        str((os.cpu_count() or 1) + 1),
+        "--dist",
+        "loadfile",
+        "--no-loadscope-reorder",
+        "--max-worker-restart",
+        "0",
+    ),
     "--benchmark-disable",
 )
 
