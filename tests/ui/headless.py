@@ -7,6 +7,8 @@ from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 
+from PySide6.QtGui import QGuiApplication
+
 from kiosk.config import Settings
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.outcomes import SessionKind
@@ -16,7 +18,7 @@ from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study
 from kiosk.ui.app import App
 from kiosk.ui.session_runner import ConditionAssigner, RunContext
-from kiosk.ui.window import ClockMode, RunMode, WindowMode
+from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
 from tests.samples import SHORT
 
 VIRTUAL = RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL)
@@ -67,6 +69,17 @@ def study_of(settings: Settings) -> StudyConfig:
     """Return the study of these settings; those that hundreds of tests share are read once."""
     number = next((number for number, shared in enumerate(_OFTEN) if shared is settings), None)
     return read_study(settings) if number is None else _often(number)
+
+
+@contextmanager
+def open_window(study: StudyConfig) -> Iterator[Window]:
+    """Open the window of a study, with no kiosk behind it; there must be an application object."""
+    window = Window(study, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL))
+    window.show()
+    while not window.shown.isExposed():
+        QGuiApplication.processEvents()
+    yield window
+    window.close()
 
 
 @contextmanager

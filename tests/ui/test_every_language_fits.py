@@ -30,8 +30,9 @@ from kiosk.experiment.session_config import SessionConfig, StudyConfig
 from kiosk.study.loader import read_study
 from kiosk.ui.screens.registry import ScreenSet
 from kiosk.ui.simulated_visitor import UiDriver, find_item, lay_out
-from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
+from kiosk.ui.window import Window
 from tests import pseudo
+from tests.ui.headless import open_window
 
 SIZES = [(1280, 720), (1920, 1080), (1080, 1920)]
 
@@ -83,15 +84,11 @@ ASKED = {file.stem: Questionnaire.read(file) for file in (ASSETS / "questionnair
 
 
 @pytest.fixture(scope="module")
-def kiosk(qapp: QApplication) -> Iterator[tuple[Window, StudyConfig]]:
+def kiosk(qapp: QApplication) -> Iterator[tuple[Window, StudyConfig]]:  # noqa: ARG001 - Qt is to be there before
     """Provide one window in all shipped languages, as a visitor who can go back has it."""
     study = read_study(Settings.model_validate({"languages": SHIPPED}))
-    opened = Window(study, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL))
-    opened.show()
-    while not opened.shown.isExposed():
-        qapp.processEvents()
-    yield opened, study
-    opened.close()
+    with open_window(study) as opened:
+        yield opened, study
 
 
 @pytest.fixture(scope="module", params=["en", pseudo.LANGUAGE])
@@ -106,14 +103,10 @@ def study(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFacto
 
 
 @pytest.fixture(scope="module")
-def opened(study: StudyConfig, qapp: QApplication) -> Iterator[Window]:
+def opened(study: StudyConfig, qapp: QApplication) -> Iterator[Window]:  # noqa: ARG001 - Qt is to be there before
     """Provide one window of that study."""
-    window = Window(study, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL))
-    window.show()
-    while not window.shown.isExposed():
-        qapp.processEvents()
-    yield window
-    window.close()
+    with open_window(study) as window:
+        yield window
 
 
 @pytest.fixture

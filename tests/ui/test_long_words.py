@@ -18,7 +18,8 @@ from kiosk.experiment.information import Information
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.study.loader import read_study
 from kiosk.ui.simulated_visitor import lay_out
-from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
+from kiosk.ui.window import Window
+from tests.ui.headless import open_window
 from tests.ui.settling import pages
 from tests.ui.test_every_language_fits import SIZES, assert_all_can_be_read, moments, resize, show_alone, texts
 
@@ -67,20 +68,11 @@ def study(tmp_path_factory: pytest.TempPathFactory) -> StudyConfig:
     return replace(whole, plans=(there,))
 
 
-def opened(study: StudyConfig, qapp: QGuiApplication) -> Iterator[Window]:
-    """Provide the window of a study."""
-    window = Window(study, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL))
-    window.show()
-    while not window.shown.isExposed():
-        qapp.processEvents()
-    yield window
-    window.close()
-
-
 @pytest.fixture(scope="module")
-def window(study: StudyConfig, qapp: QGuiApplication) -> Iterator[Window]:
+def window(study: StudyConfig, qapp: QGuiApplication) -> Iterator[Window]:  # noqa: ARG001 - Qt is to be there before
     """Its window, with texts as large as they can be."""
-    yield from opened(study, qapp)
+    with open_window(study) as opened:
+        yield opened
 
 
 @pytest.mark.parametrize(("width", "height"), SIZES)
@@ -107,9 +99,10 @@ def test_a_language_without_spaces_is_readable_on_every_screen(
 
 
 @pytest.fixture(scope="module", params=["en", "es", "it"])
-def shipped(request: pytest.FixtureRequest, qapp: QGuiApplication) -> Iterator[Window]:
+def shipped(request: pytest.FixtureRequest, qapp: QGuiApplication) -> Iterator[Window]:  # noqa: ARG001 - Qt is to be there before
     """Provide the window of a study in one of the shipped languages."""
-    yield from opened(read_study(Settings.model_validate({"languages": [request.param]})), qapp)
+    with open_window(read_study(Settings.model_validate({"languages": [request.param]}))) as opened:
+        yield opened
 
 
 @pytest.mark.parametrize(("width", "height"), SIZES)
