@@ -276,7 +276,8 @@ class FormScreen(QObject):
     @Property(str, notify=marked)
     def waiting(self) -> str:
         """Return how many answers the way on waits for; empty if none."""
-        return self._catalogue.text("form-to-go", number=self._to_go()) if self._to_go() else ""
+        number = self._to_go()
+        return self._catalogue.text("form-to-go", number=number) if number else ""
 
     @Slot(str, int)
     def rate(self, item: str, value: int) -> None:

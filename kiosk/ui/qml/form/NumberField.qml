@@ -92,7 +92,6 @@ Row {
         objectName: `number-${number.item}`
         focus: true
         label: `${number.label} ${number.range}`
-        asks: number.label
         hint: number.hint
         Accessible.description: ""
         digits: true

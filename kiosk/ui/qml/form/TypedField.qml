@@ -9,8 +9,6 @@ TextField {
 
     required property FormScreen form
     required property string label
-    // The question alone.
-    property string asks: label
     // What there is to do, while nothing is typed. Not its placeholder text: that is drawn as markup if it looks like it.
     property string hint: ""
     property bool digits: false
