@@ -15,13 +15,15 @@ Button {
     property bool waits: false
     // How round it is at most.
     property real corner: Infinity
+    property real letters: Theme.onButtons
 
     width: Math.min(implicitWidth, most)
     Accessible.name: words
     focusPolicy: Qt.StrongFocus
     horizontalPadding: 56 * Theme.unit
-    verticalPadding: 26 * Theme.unit
-    font.pixelSize: Theme.body
+    // Larger letters take from the air above and below them: a row of buttons stays as high.
+    verticalPadding: 26 * Theme.unit - 0.68 * (letters - Theme.body)
+    font.pixelSize: letters
     font.bold: true
     scale: down ? 0.96 : 1
     // Where there is no other stop, Tab still shows this one.

@@ -53,6 +53,8 @@ QtObject {
     readonly property real figure: size(64)
     readonly property real heading: size(46)
     readonly property real body: size(32)
+    // An upright page's texts are larger than a wide one's, and so are the words of its buttons.
+    readonly property real onButtons: size(upright && textSize <= 1.15 ? 36 : 32)
     readonly property real small: size(26)
     readonly property real reading: size(29)
     // What the experimenter reads, who sits close and wants all of it at once: 20 of 1080 lines at least.

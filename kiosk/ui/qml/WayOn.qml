@@ -23,6 +23,8 @@ FocusScope {
     property bool even: false
     property string name: "continue"
     property string otherName: ""
+    // Two ways on share the width of an upright page, in letters that leave both room.
+    readonly property real letters: other === "" ? Theme.onButtons : Theme.body
     readonly property alias button: go
     // Where there is room between the way back and the way on.
     readonly property real free: back.visible ? back.x + back.width : 0
@@ -52,6 +54,7 @@ FocusScope {
 
     BigButton {
         id: go
+        letters: ways.letters
         objectName: ways.name
         visible: ways.label !== ""
         most: ways.width
@@ -73,6 +76,7 @@ FocusScope {
     }
     BigButton {
         id: no
+        letters: ways.letters
         objectName: ways.otherName
         visible: ways.other !== ""
         most: ways.width
@@ -85,9 +89,9 @@ FocusScope {
         quiet: true
         horizontalPadding: 44 * Theme.unit
         // Two lines need less air above and below them.
-        verticalPadding: (ways.level && letters.advanceWidth(words) > ways.spread - 2 * horizontalPadding ? 10 : 26) * Theme.unit
+        verticalPadding: (ways.level && metrics.advanceWidth(words) > ways.spread - 2 * horizontalPadding ? 10 : 26) * Theme.unit
         FontMetrics {
-            id: letters
+            id: metrics
             font: no.font
         }
         words: ways.other
@@ -95,6 +99,7 @@ FocusScope {
     }
     BigButton {
         id: back
+        letters: ways.letters
         objectName: "back"
         visible: ways.kiosk.goesBack
         most: ways.width
@@ -103,7 +108,7 @@ FocusScope {
         y: ways.beside ? ways.tallest - height - Math.min(8 * Theme.unit, (ways.tallest - height) / 2) : ways.paired ? no.y + (no.height - height) / 2 : ways.height - height
         quiet: true
         words: ways.words["control-back"]
-        verticalPadding: 18 * Theme.unit
+        verticalPadding: 18 * Theme.unit - 0.68 * (ways.letters - Theme.body)
         horizontalPadding: 40 * Theme.unit
         onClicked: ways.kiosk.goBack()
     }
