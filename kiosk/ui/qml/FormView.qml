@@ -273,10 +273,10 @@ PageFrame {
         anchors.fill: parent
         TapHandler { onTapped: view.way.button.forceActiveFocus() }
     }
-    // The same as a line of as many parts, over an upright page. The part of this page is half as dark as those done.
+    // The same as a line of as many parts, over an upright page. The part of this page is the darkest and thickest.
     Row {
         visible: progress.visible && view.upright
-        y: -0.75 * Theme.gap
+        y: -0.83 * Theme.gap
         width: view.column
         spacing: 8 * Theme.unit
         Repeater {
@@ -284,9 +284,11 @@ PageFrame {
             Rectangle {
                 required property int index
                 width: (view.column - (view.form.pages - 1) * 8 * Theme.unit) / Math.max(1, view.form.pages)
-                height: 8 * Theme.unit
+                readonly property bool present: index === view.form.page - 1
+                y: (14 * Theme.unit - height) / 2
+                height: (present ? 14 : 8) * Theme.unit
                 radius: height / 2
-                color: index < view.form.page - 1 ? Theme.sea : index < view.form.page ? Qt.tint(Theme.paper, Qt.alpha(Theme.sea, 0.5)) : Theme.sand
+                color: present ? Theme.sea : index < view.form.page ? Qt.tint(Theme.paper, Qt.alpha(Theme.sea, 0.5)) : Theme.sand
             }
         }
     }
