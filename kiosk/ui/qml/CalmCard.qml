@@ -11,11 +11,12 @@ FocusScope {
     property string line: ""
     property real titleSize: Theme.figure
     property real lineSize: Theme.body
+    // Whether the line is what matters most, and is then as large as a title.
+    property bool lineFirst: false
     // What is to be noted down, large on a line of its own; empty for none.
     property string code: ""
     // The lines of a drawing above the title, on a square of 24; empty for none.
     property string sign: ""
-    property real thick: 2.2
     // Where the middle of the card is.
     property point middle: Qt.point(width / 2, height / 2)
     // Where the face of the one who asks begins, below the card, which then is what it says; 0 where there is no face.
@@ -23,13 +24,25 @@ FocusScope {
     // Where the middle of that face is, where it is beside the card; 0 where it is not.
     property real beside: 0
     property bool atLeft: false
+    // The edge of that one's place, which the card reaches.
+    property real bound: 0
     readonly property bool large: speaker > 0 || beside > 0 && Theme.textSize <= 1.15
+    // Whether there is so much height above a face that words and drawing can be larger.
+    readonly property bool roomy: speaker > 0.65 * height && Theme.textSize <= 1
     readonly property real tail: speaker > 0 ? 34 * Theme.unit : 0
     // How high it is at least, and how wide where a face is beside it.
     property real least: 0
     property real broadest: 1100 * Theme.unit
+    // And where it is at no face.
+    property real broad: 900 * Theme.unit
     // How much of what is below is covered; a card that covers most of it hides the remains as well.
     property real veil: 0.94
+    // What lies there face down instead of a drawing; empty for none.
+    property url cardBack: ""
+    property url cardShadow: ""
+    readonly property bool lies: String(cardBack) !== ""
+    // Whether they lie on the page above the card, and not on it.
+    readonly property bool spread: lies && roomy && card.y > 600 * Theme.unit
     // What there is to choose: the name of each, its words, and whether it is quiet. The first has the keyboard.
     property var choices: []
     signal chosen(string name)
@@ -37,14 +50,12 @@ FocusScope {
     // drawing, with their unit below, and a ring around them empties in small steps.
     property int lasts: 0
     property string second: ""
-    // Whether a ring around the drawing swells and shrinks slowly, as a sign that all is well.
-    property bool breathes: false
     readonly property int steps: 40
     property int msLeft: 0
     readonly property int secondsLeft: Math.ceil(msLeft / 1000)
     // Where nothing moves, the ring stays whole.
     readonly property int stepsLeft: Theme.motion === 0 ? steps : Math.ceil(steps * msLeft / Math.max(1, lasts))
-    readonly property real badge: (lasts > 0 ? (speaker > 0 ? 220 : 190) : large ? 150 : 112) * Theme.unit
+    readonly property real badge: (lasts > 0 ? (roomy ? 310 : speaker > 0 ? 220 : 200) : roomy ? 190 : large ? 150 : 112) * Theme.unit
     onLastsChanged: {
         emptying.stop()
         msLeft = lasts
@@ -63,6 +74,27 @@ FocusScope {
 
     onVisibleChanged: if (visible && buttons.count > 0) buttons.itemAt(0).focus = true
 
+    // A card that is not turned meanwhile, at its place in a row of so many.
+    component Lying: Item {
+        id: lying
+        required property int index
+        property int many: 3
+        required property real slot
+        readonly property real place: index - (many - 1) / 2
+        width: Math.round(slot)
+        height: 1.08 * width
+        CardFace {
+            y: 0.08 * lying.place * lying.place * width
+            width: lying.width
+            height: width
+            rotation: 6 * lying.place
+            back: calm.cardBack
+            shadow: calm.cardShadow
+            picture: ""
+            up: false
+        }
+    }
+
     // Whatever lies below cannot be reached, and steps back.
     Rectangle {
         anchors.fill: parent
@@ -71,13 +103,35 @@ FocusScope {
         MouseArea { anchors.fill: parent; hoverEnabled: true; preventStealing: true; Accessible.ignored: true }
     }
 
+    Column {
+        anchors.horizontalCenter: parent.horizontalCenter
+        y: (card.y - height) / 2
+        visible: calm.spread
+        spacing: 1.5 * Theme.gap
+        Repeater {
+            model: calm.spread ? [3, 2] : []
+            Row {
+                id: row
+                required property int modelData
+                anchors.horizontalCenter: parent?.horizontalCenter
+                spacing: 1.5 * Theme.gap
+                Repeater {
+                    model: row.modelData
+                    Lying {
+                        many: row.modelData
+                        slot: Math.min(270 * Theme.unit, 0.36 * card.y)
+                    }
+                }
+            }
+        }
+    }
     Rectangle {
         id: card
-        x: Math.round(calm.middle.x - width / 2)
+        x: Math.round(calm.beside === 0 ? calm.middle.x - width / 2 : calm.atLeft ? calm.bound - 6 * Theme.unit : calm.bound + 6 * Theme.unit - width)
         y: Math.round(calm.speaker > 0 ? Math.max(2 * Theme.gap, calm.speaker - height - calm.tail - 0.5 * Theme.gap)
            : Math.max(Math.min(Theme.gap, (parent.height - height) / 2), Math.min(calm.middle.y - height / 2, parent.height - height - Theme.gap)))
         // As wide as an upright page and what the helper says below it.
-        width: calm.speaker > 0 ? parent.width - 4 * Theme.gap : calm.beside > 0 ? calm.broadest : Math.min(parent.width - 4 * Theme.gap, 900 * Theme.unit)
+        width: calm.speaker > 0 ? parent.width - 4 * Theme.gap : calm.beside > 0 ? calm.broadest : Math.min(parent.width - 4 * Theme.gap, calm.broad)
         height: Math.max(calm.least, content.height + 5 * Theme.gap)
         radius: Theme.radius
         color: Theme.white
@@ -86,7 +140,18 @@ FocusScope {
             id: content
             anchors.centerIn: parent
             width: parent.width - 4 * Theme.gap
-            spacing: 1.5 * Theme.gap
+            spacing: (calm.roomy ? 2 : 1.5) * Theme.gap
+            Row {
+                anchors.horizontalCenter: parent.horizontalCenter
+                visible: calm.lies && !calm.spread
+                topPadding: 0.5 * Theme.gap
+                bottomPadding: 0.5 * Theme.gap
+                spacing: 1.2 * Theme.gap
+                Repeater {
+                    model: calm.lies && !calm.spread ? 3 : 0
+                    Lying { slot: (calm.large ? 200 : 130) * Theme.unit }
+                }
+            }
             Rectangle {
                 anchors.horizontalCenter: parent.horizontalCenter
                 visible: calm.sign !== "" || calm.lasts > 0
@@ -118,22 +183,6 @@ FocusScope {
                         }
                     }
                 }
-                Rectangle {
-                    id: breath
-                    anchors.centerIn: parent
-                    visible: calm.breathes
-                    width: parent.width + 20 * Theme.unit
-                    height: width
-                    radius: width / 2
-                    color: "transparent"
-                    border { color: Theme.sand; width: 6 * Theme.unit }
-                    SequentialAnimation on scale {
-                        running: calm.breathes && calm.visible && Theme.motion > 0
-                        loops: Animation.Infinite
-                        NumberAnimation { from: 1; to: 1.16; duration: 8 * Theme.motion; easing.type: Easing.InOutSine }
-                        NumberAnimation { from: 1.16; to: 1; duration: 8 * Theme.motion; easing.type: Easing.InOutSine }
-                    }
-                }
                 // Read by the eye alone: a screen reader would speak every second.
                 PlainText {
                     objectName: "seconds-left"
@@ -162,16 +211,16 @@ FocusScope {
                 Drawing {
                     anchors.centerIn: parent
                     visible: calm.lasts === 0
-                    scale: (calm.large ? 3.4 : 2.6) * Theme.unit
+                    scale: (calm.roomy ? 4.2 : calm.large ? 3.4 : 2.6) * Theme.unit
                     path: calm.sign
                     ink: Theme.ink
-                    thick: calm.thick
+                    thick: 2.2
                 }
             }
             Balanced {
                 width: parent.width
                 text: calm.title
-                font { pixelSize: calm.titleSize; bold: true }
+                font { pixelSize: calm.lineFirst ? calm.lineSize : calm.titleSize; bold: true }
                 color: Theme.ink
                 Accessible.role: Accessible.AlertMessage
                 Accessible.name: text
@@ -183,25 +232,22 @@ FocusScope {
                 width: parent.width - (calm.code !== "" && calm.speaker > 0 && Theme.textSize <= 1.15 ? 4 : 0) * Theme.gap
                 visible: text !== ""
                 text: calm.line
-                font.pixelSize: calm.lineSize
-                color: Theme.faintInk
+                font { pixelSize: calm.lineFirst ? calm.titleSize : calm.lineSize; bold: calm.lineFirst }
+                color: calm.lineFirst ? Theme.sea : Theme.faintInk
                 horizontalAlignment: Text.AlignHCenter
             }
-            // As if on a slip of paper: it is to be taken along.
-            Rectangle {
+            // Apart from what can be pressed, and nothing around it: it is no button.
+            Item {
                 visible: calm.code !== ""
                 width: parent.width
-                height: noted.height + 0.8 * Theme.gap
-                radius: Theme.radius
-                color: Theme.shelf
-                border { color: Theme.edge; width: 3 * Theme.unit }
+                height: noted.height + (calm.roomy ? 0.5 : 1) * Theme.gap
                 PlainText {
                     id: noted
                     objectName: "noted"
-                    anchors { left: parent.left; right: parent.right; margins: Theme.gap; verticalCenter: parent.verticalCenter }
+                    width: parent.width
                     visible: text !== ""
                     text: calm.code
-                    font { pixelSize: Theme.figure; bold: true; letterSpacing: 4 * Theme.unit }
+                    font { pixelSize: calm.roomy ? Theme.size(84) : calm.large ? Theme.size(72) : Theme.figure; bold: true; letterSpacing: 4 * Theme.unit }
                     fontSizeMode: Text.HorizontalFit
                     minimumPixelSize: Theme.body
                     color: Theme.sea
@@ -242,7 +288,7 @@ FocusScope {
                         objectName: modelData.name
                         most: content.width
                         width: flow.pair ? Math.floor(flow.half) : Math.min(implicitWidth, most)
-                        font.pixelSize: Theme.size(36)
+                        font.pixelSize: Theme.size(calm.roomy ? 40 : 36)
                         verticalPadding: 30 * Theme.unit
                         words: modelData.words
                         quiet: modelData.quiet ?? false

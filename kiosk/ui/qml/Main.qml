@@ -324,15 +324,17 @@ Window {
             speaker: root.faceBelow
             beside: root.faceBeside
             atLeft: root.boardOnRight
-            least: (large ? 625 : 500) * Theme.unit
-            breathes: true
-            veil: beside > 0 ? 1 : 0.94
-            sign: "M8 4 V20 M16 4 V20"
-            thick: 4.7
+            bound: root.boardOnRight ? helper.x + helper.width : helper.x
+            least: (roomy ? 480 : large ? 625 : 500) * Theme.unit
+            broadest: 1060 * Theme.unit
+            veil: speaker > 0 || beside > 0 ? 1 : 0.94
+            cardBack: root.cardBack
+            cardShadow: root.cardShadow
             title: root.words["pause-title"]
-            titleSize: Theme.size(76)
+            titleSize: Theme.size(roomy ? 88 : 84)
             line: root.kiosk.pauseLine
-            lineSize: Theme.size(46)
+            lineFirst: root.kiosk.pauseEnds
+            lineSize: Theme.size(roomy ? 54 : 50)
         }
     }
     SidePanel {
@@ -428,12 +430,14 @@ Window {
             focus: true
             sign: "M1.5 12 C6 3.5 18 3.5 22.5 12 C18 20.5 6 20.5 1.5 12 Z M12 8.5 A3.5 3.5 0 0 1 12 15.5 A3.5 3.5 0 0 1 12 8.5"
             title: root.words["still-there-title"]
-            // In a game it begins between two rows of cards.
-            least: speaker > 0 && boardPage.visible ? 730 * Theme.unit : 0
+            least: (roomy ? 1000 : speaker > 0 && boardPage.visible ? 730 : root.asking && root.wide ? 640 : 0) * Theme.unit
+            broad: (root.asking && root.wide ? 1060 : 900) * Theme.unit
+            veil: root.asking ? 1 : 0.94
+            titleSize: roomy || root.asking && root.wide && Theme.textSize <= 1 ? Theme.size(76) : Theme.figure
             middle: root.asking && root.wide ? stage.middle : Qt.point(root.width / 2, root.room / 2)
             speaker: root.faceBelow
             line: root.asking && root.wide ? "" : root.words["still-there-line"]
-            lineSize: Theme.size(36)
+            lineSize: Theme.size(roomy ? 42 : 36)
             // A replay has a time of its own.
             lasts: root.replay === null ? root.kiosk.answerMs : 0
             second: root.words["still-there-second"]
@@ -449,9 +453,10 @@ Window {
         sourceComponent: CalmCard {
             focus: true
             middle: root.asking && root.wide ? stage.middle : Qt.point(root.width / 2, root.room / 2)
+            bound: root.boardOnRight ? helper.x + helper.width : helper.x
             broadest: 1214 * Theme.unit
-            veil: beside > 0 ? 1 : 0.94
-            least: speaker > 0 && boardPage.visible ? 900 * Theme.unit : 0
+            veil: root.asking ? 1 : 0.94
+            least: (roomy ? 1000 : speaker > 0 && boardPage.visible ? 900 : 0) * Theme.unit
             speaker: root.faceBelow
             beside: root.faceBeside
             atLeft: root.boardOnRight
@@ -459,7 +464,8 @@ Window {
             sign: "M13 4 H5 V20 H13 M10 12 H20 M16 8 L20 12 L16 16"
             title: root.words["stop-title"]
             line: root.kiosk.stopLine
-            lineSize: large ? Theme.size(36) : Theme.body
+            titleSize: roomy ? Theme.size(76) : Theme.figure
+            lineSize: roomy ? Theme.size(42) : large ? Theme.size(36) : Theme.body
             code: root.kiosk.stopCode
             choices: [{ name: "stop-no", words: root.words["stop-no"] }, { name: "stop-yes", words: root.words["stop-yes"], quiet: true }]
             onChosen: name => name === "stop-yes" ? root.kiosk.stop() : root.kiosk.ask("")

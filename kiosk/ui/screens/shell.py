@@ -444,6 +444,11 @@ class KioskScreen(QObject):
         # A pause goes on by itself; the screen of that name waits for the experimenter.
         return self._catalogue.text("pause-help" if self._screen == "pause" else "pause-line")
 
+    @Property(bool, notify=controls)
+    def pauseEnds(self) -> bool:  # noqa: N802 - QML's convention
+        """Whether the pause screen says when the people at the table are back."""
+        return self._back_at != ""
+
     @Slot(str)
     def ask(self, what: str) -> None:
         """Ask over the screen whether to ``stop``, or for a ``language``; with nothing, ask no longer."""

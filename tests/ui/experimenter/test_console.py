@@ -127,6 +127,7 @@ def test_a_pause_says_when_it_goes_on_and_is_no_longer_than_the_session_allows(m
     assert kiosk.property("paused")
     assert kiosk.back_at in times(10)
     assert kiosk.property("pauseLine") == f"Back at {kiosk.back_at}."
+    assert kiosk.property("pauseEnds"), "the time is then the largest of its words"
     assigner.do(Action.PAUSE)
     assert not kiosk.property("paused")
     assert kiosk.back_at == ""
