@@ -28,7 +28,7 @@ Item {
                      upL: 0.93, upR: 0.93, low: 0.95, slant: 3, lx: 0, ly: 0,
                      smile: 0.65, span: 62, skew: 0, wave: 0, mx: 0, cheek: 0.3,
                      hLx: 70, hLy: 540, hRx: 330, hRy: 540 },
-        happy:     { tilt: -5, dx: 6, dy: -8, zoom: 1.02, sh: -6, earL: 34, earR: 34, bLi: 13, bLo: 8, bRi: 13, bRo: 8,
+        happy:     { tilt: -5, dx: 6, dy: -6, zoom: 1.02, sh: -6, earL: 38, earR: 46, bLi: 13, bLo: 8, bRi: 13, bRo: 8,
                      upL: 0.9, upR: 0.9, low: -0.16, slant: 0, lx: 0, ly: -0.4,
                      smile: 1.35, span: 92, skew: 0, wave: 0, mx: 0, cheek: 1,
                      hLx: 30, hLy: 290, hRx: 370, hRy: 290 },

@@ -69,8 +69,8 @@ FocusScope {
     readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
         + Math.max(upright && Theme.textSize > 1.15 ? 18 * Theme.unit : 0, Math.min(apart + 5 * loose, spare))
     // A pair that was just found has a frame of this thickness; frames of neighbours leave a clear strip between them.
-    readonly property real ring: Math.min(13 * Theme.unit, 0.05 * cell)
-    readonly property real framed: cell - 7 * Theme.unit
+    readonly property real ring: Math.min(12 * Theme.unit, 0.05 * cell)
+    readonly property real framed: cell - 14 * Theme.unit
     // Where the cards themselves begin and end.
     readonly property real cardsBegin: table.x + margin * cell
     readonly property real cardsEnd: table.x + table.width - margin * cell
@@ -79,7 +79,7 @@ FocusScope {
     readonly property real wordsAt: 12 * Theme.unit + loose
     readonly property real wordsHigh: upright ? wordsLine - 12 * Theme.unit - wordsApart : tray.height
     // The way to the game stands above the cards, with the tray; or below them, where large words leave no room there.
-    readonly property real above: practice.width + progress.implicitWidth + skip.implicitWidth + (upright ? 0 : 240 * Theme.unit) + 5 * Theme.gap
+    readonly property real above: practice.width + (broad ? progress.implicitWidth : progress.width) + skip.implicitWidth + (upright ? 0 : 240 * Theme.unit) + 5 * Theme.gap
     readonly property bool skipsBelow: !broad && above > width
     // Beside the numbers there is room for a mark's arrow.
     readonly property real numbers: (upright ? 66 : 78) * Theme.unit
@@ -187,11 +187,14 @@ FocusScope {
             Accessible.role: Accessible.Heading
         }
     }
+    TextMetrics { id: mostPairs; font: progress.font; text: view.board.mostPairs }
+    TextMetrics { id: mostMoves; font: moves.font; text: view.board.mostMoves }
     PlainText {
         id: progress
         x: !view.practises ? (view.broad ? Theme.gap : view.upright ? view.headLeft : view.cardsBegin) : view.broad ? Theme.gap : practice.x + practice.width + Theme.gap
         y: !view.broad ? view.wordsAt : view.practises ? practice.y + practice.height + 0.7 * Theme.gap : table.y
-        width: view.broad ? view.side - Theme.gap : implicitWidth
+        // What stands beside the words keeps its place from the first pair to the last.
+        width: view.broad ? view.side - Theme.gap : view.upright ? implicitWidth : Math.ceil(Math.max(implicitWidth, mostPairs.advanceWidth))
         height: view.broad ? implicitHeight : view.wordsHigh
         verticalAlignment: Text.AlignVCenter
         wrapMode: view.broad ? Text.Wrap : Text.NoWrap
@@ -206,7 +209,7 @@ FocusScope {
         // On a wide screen the tray comes last, so that these words do not run into what stands beside the cards.
         x: view.broad ? Theme.gap : view.upright ? view.headRight - width : progress.x + progress.width + Theme.gap
         y: view.broad ? progress.y + progress.height + 0.5 * Theme.gap : view.wordsAt
-        width: view.broad ? view.side - Theme.gap : implicitWidth
+        width: view.broad ? view.side - Theme.gap : view.upright ? implicitWidth : Math.ceil(Math.max(implicitWidth, mostMoves.advanceWidth))
         height: view.broad ? implicitHeight : view.wordsHigh
         verticalAlignment: Text.AlignVCenter
         wrapMode: view.broad ? Text.Wrap : Text.NoWrap
@@ -219,9 +222,9 @@ FocusScope {
         x: view.broad ? view.width - view.side : view.upright ? view.headLeft
          : view.practises ? progress.x + progress.width + Theme.gap : moves.x + moves.width + Theme.gap
         y: view.broad ? table.y : view.upright ? view.wordsAt + view.wordsLine + view.loose : 12 * Theme.unit
-        width: view.broad ? view.side - Theme.gap : view.upright ? view.headRight - view.headLeft : Math.max(0, end - x - Theme.gap)
-        // Its shelf ends with the cards.
-        readonly property real end: !view.practises ? view.cardsEnd + Theme.gap - 5 * Theme.unit : view.skipsBelow ? view.width : skip.x
+        width: view.broad ? view.side - Theme.gap : view.upright ? view.headRight - view.headLeft : Math.max(0, end - x)
+        // It ends with the cards, or as far from the way to the game as it begins from the words.
+        readonly property real end: !view.practises ? view.cardsEnd : (view.skipsBelow ? view.width : skip.x) - Theme.gap
         height: view.broad ? table.height : view.upright ? view.lines * view.shelfSlot : view.strip - 8 * Theme.unit
         places: view.pairs
         spreads: view.upright
@@ -289,7 +292,7 @@ FocusScope {
          : view.skipsBelow ? view.height - height - Theme.gap : view.wordsAt + (view.wordsHigh - height) / 2
         visible: view.practises
         quiet: true
-        horizontalPadding: (view.broad ? 20 : 36) * Theme.unit
+        horizontalPadding: (view.broad ? 20 : view.upright ? 36 : 30) * Theme.unit
         verticalPadding: 12 * Theme.unit
         words: view.words["practice-skip"]
         onClicked: view.board.skip()
@@ -451,7 +454,7 @@ FocusScope {
             Rectangle {
                 visible: place.proud > 0
                 anchors.centerIn: parent
-                width: view.framed * (1 + 0.09 * place.cheer)
+                width: (view.framed + 9 * Theme.unit) * (1 + 0.09 * place.cheer)
                 height: width
                 opacity: place.proud
                 radius: width * 0.12
@@ -489,6 +492,8 @@ FocusScope {
                 picture: place.picture
                 up: place.up
                 shade: 1 - place.rest
+                // A pair has its green frame instead, as soon as it has come forward.
+                rimShown: !place.found ? 1 : coming.running && !place.settles ? Math.max(0, 1 - place.forward) : 0
                 prepares: view.prepares
                 // Closed cards step back while a tap would not count, unless they are meant.
                 opacity: view.speaking && !place.up && !place.marked ? Theme.held : 1
@@ -500,13 +505,13 @@ FocusScope {
                 objectName: "missed-" + place.index
                 visible: place.missed && place.turning === 1
                 anchors { centerIn: face; horizontalCenterOffset: face.shift }
-                width: face.width * face.scale
+                width: 0.962 * face.width * face.scale
                 height: width
                 rotation: face.rotation
                 radius: width * 0.12
                 color: "transparent"
-                // Not the colour of a hint.
-                border { color: Theme.faintInk; width: 4 * Theme.unit }
+                // Thicker than the rim of any open card, and not the colour of a hint.
+                border { color: Theme.faintInk; width: 8 * Theme.unit }
             }
             SequentialAnimation {
                 id: coming

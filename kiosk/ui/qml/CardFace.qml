@@ -12,6 +12,9 @@ Item {
     required property bool up
     // How much of the shadow is seen: a card that lies flat has none.
     property real shade: 1
+    // How thick the rim around an open card is, and how much of it is seen.
+    property real rimmed: 4 * Theme.unit
+    property real rimShown: 0
     // Whether a picture that is wanted in another size is loaded beside other things; the old one is seen until then.
     property bool prepares: false
 
@@ -79,6 +82,15 @@ Item {
             Scale { origin.x: card.width / 2; xScale: card.narrow },
             Translate { x: card.lean }
         ]
+        // Pictures are mostly as light as the page: the rim ends where a closed card ends, and turns with the picture.
+        Rectangle {
+            anchors { fill: parent; margins: 0.019 * card.width }
+            visible: card.rimShown > 0
+            radius: 0.115 * card.width
+            color: "transparent"
+            border { color: Theme.faintInk; width: card.rimmed }
+            opacity: card.rimShown
+        }
     }
     // What turns away from the light gets darker.
     Rectangle {

@@ -109,6 +109,8 @@ PageFrame {
                         shadow: view.cardShadow
                         picture: view.attract.pictures[scene.pictures[place.index] % view.attract.pictures.length] ?? ""
                         up: place.open
+                        rimmed: 3 * Theme.unit
+                        rimShown: scene.found ? 0 : 1
                         prepares: view.prepares
                     }
                 }

@@ -130,19 +130,24 @@ PageFrame {
                         radius: width * 0.16
                         color: Theme.leaf
                     }
-                    // Two cards, one on the other.
-                    Repeater {
-                        model: 2
-                        Image {
-                            required property int index
-                            readonly property real away: pair.width * (index === 0 ? -0.05 : 0.05)
-                            anchors { centerIn: parent; horizontalCenterOffset: away; verticalCenterOffset: away }
-                            width: Math.floor(pair.width * 0.72)
-                            height: width
-                            asynchronous: view.prepares
-                            source: Qt.resolvedUrl(pair.modelData)
-                            sourceSize: Qt.size(width, height)
-                        }
+                    // Two cards, one on the other: of the lower one only the edge is seen.
+                    readonly property real away: Math.round(0.028 * width)
+                    Rectangle {
+                        anchors { centerIn: parent; horizontalCenterOffset: -pair.away; verticalCenterOffset: -pair.away }
+                        width: 0.95 * picture.width
+                        height: width
+                        radius: 0.11 * picture.width
+                        color: Theme.white
+                        border { color: Theme.slot; width: 2 * Theme.unit }
+                    }
+                    Image {
+                        id: picture
+                        anchors { centerIn: parent; horizontalCenterOffset: pair.away; verticalCenterOffset: pair.away }
+                        width: Math.floor(pair.width * 0.78)
+                        height: width
+                        asynchronous: view.prepares
+                        source: Qt.resolvedUrl(pair.modelData)
+                        sourceSize: Qt.size(width, height)
                     }
                 }
             }

@@ -19,10 +19,14 @@ Item {
     required property url shadow
 
     readonly property int columns: Math.ceil(places / Math.max(1, lines))
-    readonly property real slot: Math.floor(Math.min(width / Math.max(1, columns), height / Math.max(1, lines)))
+    // Some of the shelf is seen around the places.
+    readonly property real rim: spreads ? 0 : 0.1
+    readonly property real slot: Math.floor(Math.min(width / (Math.max(1, columns) + 2 * rim), height / Math.max(1, lines)))
 
     // A whole number, as the board loads them beforehand.
-    readonly property int card: Math.round(slot * (paired ? 0.66 : 0.74))
+    readonly property int card: Math.round(slot * (paired ? 0.7 : 0.76))
+    // How far one card of a pair lies from the middle of its place, where they lie on each other.
+    readonly property real behind: Math.max(1, Math.round(0.03 * slot))
     readonly property real pitch: spreads ? width / Math.max(1, columns) : slot
 
     // Where the picture with this number lies, in the tray.
@@ -35,7 +39,7 @@ Item {
     Rectangle {
         anchors.centerIn: parent
         visible: tray.places > 0
-        width: tray.spreads ? tray.width : (tray.columns + 0.2) * tray.slot
+        width: tray.spreads ? tray.width : (tray.columns + 2 * tray.rim) * tray.slot
         height: Math.min(tray.slot * tray.lines + 0.2 * tray.slot, tray.height + (tray.spreads ? 12 : 0) * Theme.unit)
         radius: 0.24 * tray.slot
         color: Theme.shelf
@@ -54,22 +58,31 @@ Item {
             height: tray.slot
 
             Rectangle {
-                anchors { fill: parent; margins: parent.height * (place.filled ? 0.06 : 0.12) }
+                anchors { fill: parent; margins: parent.height * 0.07 }
                 radius: height * 0.18
                 color: place.filled ? Theme.leaf : Theme.paper
                 border { color: Theme.slot; width: place.filled ? 0 : 2 * Theme.unit }
                 opacity: place.filled && tray.landed === tray.places && place.index < tray.places - 1 ? Theme.past : 1
             }
-            // Two cards, one on the other or side by side.
+            // Two cards side by side; or one on the other, of which only the edge is seen.
+            Rectangle {
+                visible: place.filled && !tray.paired
+                anchors { centerIn: parent; horizontalCenterOffset: -tray.behind; verticalCenterOffset: -tray.behind }
+                width: 0.95 * tray.card
+                height: width
+                radius: 0.11 * tray.card
+                color: Theme.white
+                border { color: Theme.slot; width: Math.max(1, Theme.unit) }
+            }
             Repeater {
-                model: place.filled ? 2 : 0
+                model: !place.filled ? 0 : tray.paired ? 2 : 1
                 Image {
                     required property int index
                     readonly property int side: index === 0 ? -1 : 1
                     anchors {
                         centerIn: parent
-                        horizontalCenterOffset: side * (!tray.paired ? 0.05 * tray.slot : Math.max(0.05 * tray.slot, Math.min(0.5 * tray.card + Theme.unit, (place.width - tray.card) / 2 - 0.09 * tray.slot)))
-                        verticalCenterOffset: tray.paired ? 0 : side * 0.05 * tray.slot
+                        horizontalCenterOffset: !tray.paired ? tray.behind : side * Math.max(0.05 * tray.slot, Math.min(0.5 * tray.card + Theme.unit, (place.width - tray.card) / 2 - 0.09 * tray.slot))
+                        verticalCenterOffset: tray.paired ? 0 : tray.behind
                     }
                     width: tray.card
                     height: width

@@ -325,6 +325,16 @@ class BoardScreen(QAbstractListModel):
         """How many moves were made, in words; nothing without a board."""
         return "" if not self._pairs else self._catalogue.text("game-moves", moves=self._moves)
 
+    @Property(str, notify=changed)
+    def mostPairs(self) -> str:  # noqa: N802 - QML's convention
+        """Return the longest that `progress` gets, so that it takes the same room all the time."""
+        return "" if not self._pairs else self._catalogue.text("game-pairs", found=self._pairs, all=self._pairs)
+
+    @Property(str, notify=changed)
+    def mostMoves(self) -> str:  # noqa: N802 - QML's convention
+        """Return the longest that `moves` usually gets: a number of two digits."""
+        return "" if not self._pairs else self._catalogue.text("game-moves", moves=88)
+
     @Property(bool, notify=changed)
     def practice(self) -> bool:
         """Whether this is a practice, and can be left."""
