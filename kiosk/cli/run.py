@@ -72,6 +72,10 @@ def run_command(
     # Above the supervisor's calm window it would only be one more picture that changes.
     shown = not (window or unattended)
     with guarded() as beat, no_collections() as collect, _splash(study, shown=shown) as hide:
+        # Before most of the modules, so that their sources are not read.
+        from kiosk.ui.import_hook import remove_import_hook
+
+        remove_import_hook()
         from kiosk.cli.opening import Opening, open_kiosk
 
         def opened() -> None:
