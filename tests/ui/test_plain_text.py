@@ -236,10 +236,10 @@ def test_a_picture_in_a_text_is_asked_for_by_no_screen(
         window.screens.avatar.say(picture.format("sentence"))
         monkeypatch.setitem(VOICES, picture.format("voice"), "en-GB")
         answer = health_of_a_robot_whose_voice_is(picture.format("voice"))
-        line = {"name": "robot", "message": answer, "is_ok": True, "part": "robot"}
+        line = {"name": "robot", "message": answer, "is_ok": True, "remedy": ""}
         panel = window.screens.experimenter.parts[2]
         fill_panel(panel)
-        panel.show_health({"well": True, "summary": answer, "lines": [line], "more": [line]})
+        panel.show_health({"well": True, "summary": answer, "matters": [], "lines": [line], "more": [line]})
         window.screens.form.show((item,), 1, 1)
         for screen in ("about", "form"):
             window.screens.kiosk.show(screen)
@@ -318,9 +318,9 @@ def fill_panel(panel: PanelScreen) -> None:
     """Show markup in every part of the experimenter's panel."""
     words = dict.fromkeys(_names_of_the_panel(), MARKUP)
     option = [{"value": "one", "label": MARKUP}, {"value": "two", "label": BOLD}]
-    line = {"name": MARKUP, "message": PICTURE, "brief": PICTURE, "is_ok": False, "part": "voice"}
+    line = {"name": MARKUP, "message": PICTURE, "is_ok": False, "remedy": BOLD}
     panel.set_language(words)
-    panel.show_health({"well": False, "summary": MARKUP, "lines": [line], "more": [line]})
+    panel.show_health({"well": False, "summary": MARKUP, "matters": [line], "lines": [line], "more": [line]})
     tile = {"name": "visitors", "title": MARKUP, "value": BOLD, "line": PICTURE}
     panel.show_today({"clock": MARKUP, "tiles": [tile]})
     panel.list_shortcuts({"title": MARKUP, "rows": [{"keys": BOLD, "words": MARKUP}]})

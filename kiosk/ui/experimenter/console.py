@@ -279,7 +279,8 @@ class Panel:
             {
                 "well": whole.is_ok,
                 "summary": whole.message,
-                "lines": [{**asdict(line), "brief": line.brief} for line in found],
+                "matters": [asdict(line) for line in (*found, *more) if not line.is_ok],
+                "lines": [asdict(line) for line in found if line.is_ok],
                 "more": [asdict(line) for line in more],
             }
         )
@@ -379,7 +380,6 @@ WORDS = (
     "console-booth",
     "console-names-show",
     "console-names-hide",
-    "console-test-voice",
     "console-test-the-voice",
     "console-close",
     "console-cancel",
@@ -389,6 +389,7 @@ WORDS = (
     "console-alarms-none",
     "console-shortcuts",
     "console-health",
+    "console-rest-well",
     "console-counts",
     "console-counts-unlisted",
     "console-counts-done",

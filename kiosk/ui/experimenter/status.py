@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import logging
-import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from datetime import datetime
@@ -46,16 +45,8 @@ class HealthLine:
     name: str
     message: str
     is_ok: bool = True
-    part: str = ""
-    """The part of the booth that it is about, where it can be tried out."""
-
-    @property
-    def brief(self) -> str:
-        """The state in a few words: what stands before the first "; " or ": " of the message."""
-        return _AFTERTHOUGHT.split(self.message, maxsplit=1)[0]
-
-
-_AFTERTHOUGHT = re.compile("[;:] ")
+    remedy: str = ""
+    """What the experimenter can do about it, where the message does not say so."""
 
 
 @dataclass(frozen=True)
@@ -117,19 +108,26 @@ def health_lines(state: HealthInputs, catalogue: Catalogue) -> tuple[HealthLine,
     translate = catalogue.text
     return (
         _robot(state, catalogue),
-        replace(_voice(state, catalogue), part="voice"),
+        _voice(state, catalogue),
         _disk(state, catalogue),
         _database(state, catalogue),
         _clock(state.clocks, catalogue),
-        HealthLine(
-            translate("console-supervisor"),
-            translate("console-supervisor-there" if state.supervised else "console-supervisor-none"),
-            state.supervised,
-        ),
-        HealthLine(
+        # Before the supervisor, which starts no study without a PIN.
+        HealthLine(translate("console-pin-line-name"), translate("console-pin-set"))
+        if state.has_pin
+        else HealthLine(
             translate("console-pin-line-name"),
-            translate("console-pin-set" if state.has_pin else "console-pin-none"),
-            state.has_pin,
+            translate("console-pin-none"),
+            is_ok=False,
+            remedy=translate("console-pin-remedy"),
+        ),
+        HealthLine(translate("console-supervisor"), translate("console-supervisor-there"))
+        if state.supervised
+        else HealthLine(
+            translate("console-supervisor"),
+            translate("console-supervisor-none"),
+            is_ok=False,
+            remedy=translate("console-supervisor-remedy"),
         ),
     )
 
@@ -184,7 +182,9 @@ def _robot(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
 def _voice(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
     name = catalogue.text("console-voice")
     if state.muted:
-        return HealthLine(name, catalogue.text("console-voice-quiet"), is_ok=False)
+        return HealthLine(
+            name, catalogue.text("console-voice-quiet"), is_ok=False, remedy=catalogue.text("console-voice-remedy")
+        )
     if state.voice.is_ok and state.pack_changed:
         return HealthLine(name, catalogue.text("console-voice-changed"), is_ok=False)
     return HealthLine(name, state.voice.message, state.voice.is_ok)

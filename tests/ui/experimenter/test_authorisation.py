@@ -291,9 +291,9 @@ def test_without_a_pin_nothing_is_asked_but_the_reason(make_assigner: MakeDesk) 
     assigner.type("1")
     assigner.shortcut(Action.PANEL)
     assert assigner.panel.is_open
-    lines = assigner.panel.property("health")["lines"]
+    lines = assigner.panel.property("health")["matters"]
     assert [line["message"] for line in lines if line["name"] == "PIN"] == [
-        "none; every session is a trial, and everyone can open this panel"
+        "none; sessions are trials, and this panel is unlocked"
     ]
 
 

@@ -316,9 +316,10 @@ def test_one_line_tells_that_all_is_well_or_what_is_not(assigner: Desk, monkeypa
     assigner.app.experimenter.upkeep.free_space = FreeSpace(100)
     assigner.wait_until(lambda: not assigner.panel.property("health")["well"])
     assert assigner.panel.property("health")["summary"] == "Disk: only 100 MiB free: make room this evening"
-    # The line says it in a few words; the whole sentence stands in the notice alone.
-    assert shows(assigner.app.window.contentItem(), "only 100 MiB free")
-    assert not shows(assigner.app.window.contentItem(), "only 100 MiB free: make room this evening")
+    # It is said once: in the notice, and not in the list of what is well.
+    assert shows(assigner.app.window.contentItem(), "Disk: only 100 MiB free: make room this evening")
+    assert not shows(assigner.app.window.contentItem(), "Disk")
+    assert shows(assigner.app.window.contentItem(), "Everything else is well")
 
 
 def test_the_shortcuts_are_one_press_away_and_the_keyboard_is_on_their_page_then(assigner: Desk) -> None:

@@ -114,14 +114,14 @@ def test_every_deviation_has_a_line_in_every_language(noted: AuditEvent, languag
         (
             replace(WELL, has_pin=False),
             "PIN",
-            "none; every session is a trial, and everyone can open this panel",
+            "none; sessions are trials, and this panel is unlocked",
         ),
         (replace(WELL, supervised=False), "Supervisor", "none; if the kiosk fails, it stays off"),
         (replace(WELL, screen="the desktop gets some keys", screen_well=False), "Screen", "the desktop gets some keys"),
     ],
 )
 def test_what_is_not_well_is_told_and_named_in_the_one_line(state: HealthInputs, name: str, words: str) -> None:
-    assert replace(told(state)[name], part="") == HealthLine(name, words, is_ok=False)
+    assert replace(told(state)[name], remedy="") == HealthLine(name, words, is_ok=False)
     assert health_summary(every_line(state, CATALOGUES["en"]), CATALOGUES["en"]) == HealthLine(
         "", f"{name}: {words}", is_ok=False
     )
@@ -133,20 +133,25 @@ def test_what_is_not_well_is_told_and_named_in_the_one_line(state: HealthInputs,
 )
 def test_the_last_copy_is_told_in_the_size_that_matters(minutes: int, words: str) -> None:
     copied = BackupOutcome(NOW - minutes * MINUTE, Path("recollect-1.db"))
-    assert told(replace(WELL, last_backup=copied))["Database"].message == f"written to; last copy {words}"
+    assert told(replace(WELL, last_backup=copied))["Database"].message == f"last copy {words}"
 
 
 @pytest.mark.parametrize(
-    ("message", "brief"),
+    ("state", "name", "remedy"),
     [
-        ("none; if the kiosk fails, it stays off", "none"),
-        ("the last copy failed: disk full; try again", "the last copy failed"),
-        ("silent on purpose", "silent on purpose"),
-        ("no answer from 10.0.0.7:9559", "no answer from 10.0.0.7:9559"),
+        (replace(WELL, has_pin=False), "PIN", "Set one with “recollect study set-pin”"),
+        (replace(WELL, supervised=False), "Supervisor", "Start it with “recollect run --supervise”"),
+        (replace(WELL, muted=True), "Voice", "Turn the sound on"),
     ],
 )
-def test_a_line_says_what_is_not_well_in_the_words_before_the_details(message: str, brief: str) -> None:
-    assert HealthLine("", message, is_ok=False).brief == brief
+def test_what_is_missing_comes_with_what_to_do_about_it(state: HealthInputs, name: str, remedy: str) -> None:
+    assert told(state)[name].remedy == remedy
+    assert not told(WELL)[name].remedy
+
+
+def test_the_pin_is_asked_for_before_the_supervisor_that_needs_it() -> None:
+    names = list(told(replace(WELL, has_pin=False, supervised=False)))
+    assert names.index("PIN") < names.index("Supervisor")
 
 
 def test_without_a_copy_yet_nothing_is_wrong() -> None:

@@ -18,8 +18,12 @@ Button {
     property bool grave: false
     property real least: 68 * Theme.unit
     readonly property color tone: grave ? Theme.deepAmber : Theme.sea
-    readonly property bool solid: chosen || (filled && enabled)
+    property bool solid: chosen || (filled && enabled)
     property int alignment: Text.AlignHCenter
+    // The lines of a small drawing before its words, on a square of 24; none without.
+    property string drawing: ""
+    readonly property real sign: drawing === "" ? 0 : 1.45 * font.pixelSize
+    property color front: solid ? Theme.white : enabled ? tone : Theme.faintInk
 
     width: Math.min(Math.ceil(implicitWidth), parent?.width ?? Infinity)
     height: Math.max(least, implicitHeight)
@@ -41,15 +45,38 @@ Button {
     Keys.onLeftPressed: nextItemInFocusChain(false).forceActiveFocus(Qt.BacktabFocusReason)
     Keys.onUpPressed: nextItemInFocusChain(false).forceActiveFocus(Qt.BacktabFocusReason)
 
-    contentItem: Text {
-        textFormat: Text.PlainText
-        text: button.words
-        font: button.font
-        color: button.solid ? Theme.white : button.enabled ? button.tone : Theme.faintInk
-        horizontalAlignment: button.alignment
-        verticalAlignment: Text.AlignVCenter
-        // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
-        wrapMode: button.width < button.implicitWidth ? Text.Wrap : Text.NoWrap
+    contentItem: Item {
+        id: parts
+        readonly property real before: button.sign > 0 ? button.sign + 0.6 * button.font.pixelSize : 0
+        implicitWidth: before + Math.ceil(natural.advanceWidth) + 1
+        implicitHeight: Math.max(button.sign, letters.implicitHeight)
+        TextMetrics {
+            id: natural
+            text: button.words
+            font: button.font
+        }
+        Drawing {
+            visible: button.drawing !== ""
+            x: Theme.across((button.sign - width) / 2, width, parts.width)
+            y: (parts.height - height) / 2
+            scale: button.sign / 24
+            path: button.drawing
+            ink: button.front
+        }
+        Text {
+            id: letters
+            x: Theme.across(parts.before, width, parts.width)
+            y: (parts.height - height) / 2
+            width: parts.width - parts.before
+            textFormat: Text.PlainText
+            text: button.words
+            font: button.font
+            color: button.front
+            horizontalAlignment: button.drawing === "" ? button.alignment : Text.AlignLeft
+            // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
+            wrapMode: width < Math.floor(natural.advanceWidth) ? Text.Wrap : Text.NoWrap
+            Accessible.ignored: true
+        }
     }
     background: Rectangle {
         radius: 12 * Theme.unit

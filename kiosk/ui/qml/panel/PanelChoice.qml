@@ -43,6 +43,7 @@ Column {
                 chosen: modelData.value === choice.chosen
                 choosable: true
                 least: choice.least
+                horizontalPadding: (choice.even ? 8 : 18) * Theme.unit
                 font.pixelSize: choice.lettering
                 width: choice.even && implicitWidth <= choice.each ? choice.each : Math.min(implicitWidth, choice.width)
                 Accessible.role: Accessible.RadioButton

@@ -11,25 +11,31 @@ PanelSection {
     required property bool named
     signal asked()
 
-    readonly property real first: width * (named ? 0.16 : 0.1)
-    readonly property real between: 0.6 * Theme.gap
-    // As wide as each other, so that the numbers stand at even steps.
-    readonly property real other: (width - 1.6 * Theme.gap - first - (shown + 1) * between) / (shown + 1)
-    // Past a list is only what there is one for.
-    readonly property int shown: columns.filter(told).length
+    readonly property real between: 0.75 * Theme.gap
+    readonly property real room: width - 2 * inset
+    readonly property real first: Math.min(0.3 * room, Math.max(0.1 * room, Math.ceil(Math.max(0, ...records.cells.map(cell => letters.advanceWidth(cell.name))) * size / 90)))
+    // What all columns of numbers share, which are as many as there is something for.
+    readonly property var told: columns.filter(column => records.listed || column !== "beyond")
+    readonly property real all: room - first - (told.length + 1) * between
 
-    // The heads are about as large as the numbers, where the longest of their words fits its column.
-    readonly property real headSize: Math.max(Theme.denser, Math.min(0.93 * size, 97 * other
-        / Math.max(...[heading, ...columns.filter(told).map(column => words["console-counts-" + column])].join(" ").split(" ").map(word => letters.advanceWidth(word)))))
+    // Each is as wide as its head, and what is left is shared among them; where it is not enough, all are equally wide.
+    readonly property real headSize: Math.max(Theme.denser, 0.93 * size)
+    readonly property real spare: (all - own(heading) - told.reduce((sum, column) => sum + own(headOf(column)), 0)) / (told.length + 1)
+    function headOf(column: string): string {
+        return words["console-counts-" + column]
+    }
+    function own(head: string): real {
+        const plain = Math.ceil(letters.advanceWidth(head) * headSize / 100) + 2 * Theme.unit
+        return head === heading && records.listed ? Math.max(plain, 6.5 * size) : plain
+    }
+    function wide(head: string): real {
+        return spare >= 0 ? own(head) + spare : all / (told.length + 1)
+    }
     FontMetrics {
         id: letters
         font.pixelSize: 100
     }
     readonly property list<string> columns: ["dropped", "overridden", "beyond", "withdrawn"]
-
-    function told(column: string): bool {
-        return records.listed || column !== "beyond"
-    }
 
     // Without a list there is no quota: its sessions are counted as soon as they begin.
     readonly property string heading: words[records.listed ? "console-counts-done" : "console-counts-begun"]
@@ -41,15 +47,15 @@ PanelSection {
     Row {
         spacing: counts.between
         PlainText { width: counts.first; text: " "; font.pixelSize: counts.size }
-        PanelCell { anchors.bottom: parent.bottom; width: counts.other; words: counts.heading; heading: true; number: !counts.records.listed; headSize: counts.headSize }
+        PanelCell { anchors.bottom: parent.bottom; width: counts.wide(counts.heading); words: counts.heading; heading: true; number: !counts.records.listed; headSize: counts.headSize }
         Repeater {
             model: counts.columns
             delegate: PanelCell {
                 required property string modelData
                 anchors.bottom: parent?.bottom
-                visible: counts.told(modelData)
-                width: counts.other
-                words: counts.words["console-counts-" + modelData]
+                visible: counts.told.includes(modelData)
+                width: counts.wide(words)
+                words: counts.headOf(modelData)
                 heading: true
                 number: true
                 headSize: counts.headSize
@@ -70,7 +76,7 @@ PanelSection {
                 wrapMode: Text.Wrap
             }
             Item {
-                width: counts.other
+                width: counts.wide(counts.heading)
                 height: done.height
                 Rectangle {
                     visible: cell.modelData.listed
@@ -100,10 +106,10 @@ PanelSection {
                 delegate: PanelCell {
                     required property int index
                     required property string modelData
-                    visible: counts.told(counts.columns[index])
-                    width: counts.other
+                    visible: counts.told.includes(counts.columns[index])
+                    width: counts.wide(column)
                     words: modelData
-                    column: counts.words["console-counts-" + counts.columns[index]]
+                    column: counts.headOf(counts.columns[index])
                     number: true
                     strong: modelData !== "0"
                     size: counts.size
@@ -115,7 +121,7 @@ PanelSection {
     PanelButton {
         id: names
         parent: counts
-        anchors { top: parent.top; right: parent.right; margins: 0.8 * Theme.gap }
+        anchors { top: parent.top; right: parent.right; margins: counts.inset; topMargin: 0.8 * Theme.gap }
         objectName: "names"
         width: Math.min(Math.ceil(implicitWidth), Math.floor(0.6 * counts.width))
         visible: counts.records.cells.length > 0

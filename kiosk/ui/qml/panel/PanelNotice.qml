@@ -1,4 +1,4 @@
-// That all is well, or a line for each thing that is not.
+// That all is well, or what is not: a line for each matter, and what to do about it.
 pragma ComponentBehavior: Bound
 import QtQuick
 import ".."
@@ -7,46 +7,86 @@ Rectangle {
     id: notice
 
     required property var health
-    readonly property real size: Theme.dense * (Theme.upright ? 1 : 1.12)
+    required property real size
+    readonly property color front: health.well ? Theme.white : Theme.ink
 
-    height: sentence.height + Theme.gap
+    // What to do stands behind what is wrong, in a column of its own, where both fit in one line; otherwise below it.
+    readonly property real room: width - 2 * Theme.gap - 1.4 * size
+    readonly property real longest: widest(bold, health.matters.map(matter => said(matter)))
+    readonly property bool beside: longest + 1.5 * Theme.gap + widest(plain, health.matters.map(matter => matter.remedy)) <= room
+
+    function said(matter: var): string {
+        return `${matter.name}: ${matter.message}`
+    }
+    function widest(letters: FontMetrics, texts: var): real {
+        return Math.ceil(Math.max(0, ...texts.map(text => letters.advanceWidth(text)))) + 2 * Theme.unit
+    }
+
+    height: sentence.height + 1.2 * Theme.gap
     radius: Theme.radius
     color: health.well ? Theme.sea : Theme.amber
 
-    // A matter's further lines stand below its words, and not below its mark.
+    FontMetrics {
+        id: bold
+        font { pixelSize: notice.size; bold: true }
+    }
+    FontMetrics {
+        id: plain
+        font.pixelSize: notice.size
+    }
     Column {
         id: sentence
         objectName: "panel-summary"
-        anchors { left: parent.left; right: parent.right; margins: 0.8 * Theme.gap; verticalCenter: parent.verticalCenter }
+        anchors { left: parent.left; right: parent.right; margins: Theme.gap; verticalCenter: parent.verticalCenter }
+        spacing: (notice.beside ? 4 : 10) * Theme.unit
+        Row {
+            visible: notice.health.well
+            spacing: 0.4 * notice.size
+            PlainText {
+                text: "✓"
+                width: notice.size
+                font { pixelSize: notice.size; bold: true }
+                color: notice.front
+                Accessible.ignored: true
+            }
+            PlainText {
+                width: notice.room
+                text: notice.health.summary
+                font { pixelSize: notice.size; bold: true }
+                color: notice.front
+                wrapMode: Text.Wrap
+            }
+        }
         Repeater {
-            model: notice.health.summary.split("\n")
+            model: notice.health.matters
             delegate: Row {
                 id: matter
-                required property string modelData
+                required property var modelData
                 width: sentence.width
-                spacing: 10 * Theme.unit
-                readonly property color front: notice.health.well ? Theme.white : Theme.ink
-                PlainText {
-                    visible: notice.health.well
-                    text: "✓"
-                    width: sign.width
-                    font { pixelSize: notice.size; bold: true }
-                    color: matter.front
-                    Accessible.ignored: true
-                }
+                spacing: 0.4 * notice.size
                 PanelMark {
-                    id: sign
-                    visible: !notice.health.well
                     well: false
                     size: notice.size
-                    tone: matter.front
+                    tone: notice.front
                 }
-                PlainText {
-                    width: matter.width - sign.width - matter.spacing
-                    text: matter.modelData
-                    font { pixelSize: notice.size; bold: true }
-                    color: matter.front
-                    wrapMode: Text.Wrap
+                // A matter's further lines stand below its words, and not below its mark.
+                Flow {
+                    width: notice.room
+                    PlainText {
+                        width: notice.beside ? notice.longest + 1.5 * Theme.gap : parent.width
+                        text: notice.said(matter.modelData)
+                        font { pixelSize: notice.size; bold: true }
+                        color: notice.front
+                        wrapMode: Text.Wrap
+                    }
+                    PlainText {
+                        visible: text !== ""
+                        width: notice.beside ? notice.room - notice.longest - 1.5 * Theme.gap : parent.width
+                        text: matter.modelData.remedy
+                        font.pixelSize: notice.size
+                        color: notice.front
+                        wrapMode: Text.Wrap
+                    }
                 }
             }
         }

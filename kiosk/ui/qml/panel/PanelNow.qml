@@ -15,7 +15,7 @@ Rectangle {
     readonly property var stage: tiles.find(each => each.name === "stage")
     required property real size
     readonly property real figure: Theme.dense * (Theme.upright ? 1.8 : 2.1)
-    readonly property real inset: 0.8 * Theme.gap
+    readonly property real inset: Math.round(1.1 * Theme.gap)
     readonly property real room: width - 2 * inset
     // Where the numbers begin: beside what is going on, or below it.
     readonly property real from: wide ? split : 0
@@ -40,9 +40,9 @@ Rectangle {
     }
     Rectangle {
         x: now.wide ? now.from - 0.4 * Theme.gap : now.inset
-        y: now.wide ? now.inset : state.y + state.height + 0.5 * Theme.gap
+        y: now.wide ? 0.8 * Theme.gap : state.y + state.height + 0.5 * Theme.gap
         width: now.wide ? 2 * Theme.unit : now.room
-        height: now.wide ? now.height - 2 * now.inset : 2 * Theme.unit
+        height: now.wide ? now.height - 1.6 * Theme.gap : 2 * Theme.unit
         color: Theme.edge
     }
     Row {

@@ -14,6 +14,7 @@ Rectangle {
     property real crown: 0
     property real size: Theme.dense
     property real apart: 10 * Theme.unit
+    readonly property real inset: Math.round(1.1 * Theme.gap)
     // How high it is at least, where it ends with another one beside it.
     property real least: 0
     readonly property real wish: body.height + heading.height + 2.4 * Theme.gap
@@ -25,8 +26,8 @@ Rectangle {
 
     PlainText {
         id: heading
-        anchors { top: parent.top; left: parent.left; right: parent.right; margins: 0.8 * Theme.gap }
-        anchors.rightMargin: 0.8 * Theme.gap + section.aside
+        anchors { top: parent.top; left: parent.left; right: parent.right; margins: section.inset; topMargin: 0.8 * Theme.gap }
+        anchors.rightMargin: section.inset + section.aside
         height: Math.max(implicitHeight, section.crown)
         verticalAlignment: Text.AlignVCenter
         text: section.title
@@ -36,8 +37,7 @@ Rectangle {
     }
     Column {
         id: body
-        anchors { top: heading.bottom; left: parent.left; right: parent.right; margins: 0.8 * Theme.gap }
-        anchors.topMargin: 0.5 * Theme.gap
+        anchors { top: heading.bottom; left: parent.left; right: parent.right; margins: section.inset; topMargin: 0.5 * Theme.gap }
         spacing: section.apart
     }
 }

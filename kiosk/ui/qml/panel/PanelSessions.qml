@@ -20,7 +20,7 @@ PanelSection {
     }
     readonly property real step: 8 * Theme.unit
     // What the fields of a line share: the mark and the steps between them are not theirs.
-    readonly property real room: width - 1.6 * Theme.gap - size - 5 * step
+    readonly property real room: width - 2 * inset - size - 5 * step
     // About as large as what stands below them, where the longest word fits its column.
     readonly property real headSize: Math.max(Theme.denser, Math.min(0.93 * size, 97 * 0.2 * room / letters.advanceWidth(words["console-sessions-condition"])))
     FontMetrics {

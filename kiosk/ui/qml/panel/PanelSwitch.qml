@@ -8,24 +8,33 @@ PanelButton {
 
     required property bool on
     readonly property real knob: 40 * Theme.unit
-    readonly property color front: on ? Theme.white : tone
 
     choosable: true
     chosen: on
     horizontalPadding: 24 * Theme.unit
+    verticalPadding: 4 * Theme.unit
     // As wide in both, so that its words stay where they are.
     font.bold: true
     Accessible.role: Accessible.CheckBox
 
     contentItem: Item {
         id: parts
-        implicitWidth: letters.implicitWidth + track.width + Theme.gap
+        readonly property real before: bar.sign > 0 ? bar.sign + 0.6 * bar.font.pixelSize : 0
+        implicitWidth: before + letters.implicitWidth + track.width + Theme.gap
         implicitHeight: Math.max(letters.implicitHeight, track.height)
+        Drawing {
+            visible: bar.drawing !== ""
+            x: Theme.across((bar.sign - width) / 2, width, parts.width)
+            y: (parts.height - height) / 2
+            scale: bar.sign / 24
+            path: bar.drawing
+            ink: bar.front
+        }
         Balanced {
             id: letters
-            x: Theme.across(0, width, parts.width)
+            x: Theme.across(parts.before, width, parts.width)
             y: (parts.height - height) / 2
-            width: parts.width - track.width - Theme.gap
+            width: parts.width - parts.before - track.width - Theme.gap
             text: bar.words
             font: bar.font
             color: bar.front

@@ -22,25 +22,13 @@ Item {
     // Where what stands side by side begins, and where the status ends.
     readonly property real below: first.height + space
     readonly property real foot: below + left.height
-    // What the status has of a wide screen, and how high each of its lines then is; upright, as high as a button.
+    // What the status has of a wide screen.
     readonly property real room: wide && panel.alarms.length === 0 ? Math.floor(seen - below) : 0
-    readonly property real each: wide ? Math.max(0, Math.min(76 * Theme.unit, 0.97 * (room - 3.9 * size) / (panel.health.lines.length + 1) - apart)) : 36 * Theme.unit
-    // A line that is as high as the button in it needs no more room around it.
-    readonly property real apart: (!wide ? 5 : room > 0 ? 2 : 14) * Theme.unit
 
     // What a wide screen has left is shared among the rows of the counts and of the sessions.
     readonly property int rows: panel.records.cells.length + panel.records.sessions.length
     readonly property real leftOver: room > 0 && Theme.textSize <= 1.15 ? room - (370 + 45 * rows) * Theme.unit : 0
     readonly property real airy: 10 * Theme.unit + Math.max(0, Math.min(16 * Theme.unit, leftOver / (rows + 2)))
-
-    // What a test takes of the line of the voice.
-    readonly property string test: words[wide ? "console-test-voice" : "console-test-the-voice"]
-    readonly property real testing: panel.choices.underWay ? 0 : Math.ceil(letters.advanceWidth + 42 * Theme.unit)
-    TextMetrics {
-        id: letters
-        text: today.test
-        font.pixelSize: Theme.dense
-    }
 
     height: wide ? Math.max(right.height, left.y + left.height, middle.y + middle.height) : middle.y + middle.height
 
@@ -49,7 +37,7 @@ Item {
         width: today.main
         spacing: today.space
         PanelNow { width: parent.width; panel: today.panel; size: today.size; wide: today.wide || Theme.textSize <= 1.15; split: today.wide ? today.half + today.space : Math.round(0.46 * width) }
-        PanelNotice { width: parent.width; health: today.panel.health }
+        PanelNotice { width: parent.width; size: Theme.upright ? today.size : 1.12 * Theme.dense; health: today.panel.health }
     }
     Column {
         id: right
@@ -73,41 +61,14 @@ Item {
         width: today.half
         spacing: today.space
         PanelAlarms { width: parent.width; panel: today.panel; size: today.size; visible: today.panel.alarms.length > 0 }
-        PanelSection {
+        PanelHealth {
             width: parent.width
-            apart: today.apart
+            panel: today.panel
             size: today.size
-            title: today.words["console-health"]
+            double: !today.wide && Theme.textSize <= 1.15
             least: today.room
-            Repeater {
-                model: today.panel.health.lines
-                delegate: PanelLine {
-                    required property var modelData
-                    line: modelData
-                    width: parent.width
-                    size: today.size
-                    least: today.each
-                    beside: today.testing
-                    brief: true
-                    // While a visitor is there, the voice is theirs.
-                    action: modelData.part === "voice" && !today.panel.choices.underWay ? today.test : ""
-                    actionName: today.words["console-test-the-voice"]
-                    ready: !today.panel.choices.muted
-                    onAsked: today.panel.wish("test_voice", "")
-                }
-            }
-            PanelLine {
-                visible: today.panel.alarms.length === 0
-                width: parent.width
-                size: today.size
-                least: today.each
-                line: ({
-                    name: today.words["console-alarms"],
-                    message: today.words["console-alarms-none"],
-                    is_ok: true,
-                    part: "",
-                })
-            }
+            // Its heading is level with that of the counts beside it.
+            crown: today.wide ? counts.crown : 0
         }
     }
     Column {

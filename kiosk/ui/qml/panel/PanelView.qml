@@ -12,7 +12,8 @@ FocusScope {
     readonly property var words: panel.words
     readonly property bool wide: width >= height
     // Whole pixels: what ends at a fraction of one would lose its edge.
-    readonly property real space: Math.round(0.75 * Theme.gap)
+    readonly property real space: Math.round(0.85 * Theme.gap)
+    readonly property real edge: Math.round(1.5 * Theme.gap)
     property bool onToday: true
 
     objectName: "panel"
@@ -26,48 +27,42 @@ FocusScope {
     }
     Item {
         id: head
-        anchors { top: parent.top; left: parent.left; right: parent.right; margins: view.space }
-        height: Math.max(close.height, clock.height, title.height)
-        // Where large words leave too little room, the title is what can be spared.
-        readonly property bool tight: title.implicitWidth + pages.width + clock.width + close.width + 3 * Theme.gap > width
+        anchors { top: parent.top; left: parent.left; right: parent.right; margins: view.edge; topMargin: view.space }
+        height: Math.max(pages.height, close.height + 0.3 * Theme.gap)
+        // Where large words leave too little room, as on an upright screen, the title is what can be spared.
+        readonly property bool tight: title.implicitWidth + pages.width + clock.width + close.width + 4 * Theme.gap > width
 
         PlainText {
             id: title
             visible: !head.tight
-            y: (head.height - height) / 2
+            y: (close.height - height) / 2
             text: view.words["console-title"]
             font { pixelSize: Theme.dense * 1.35; bold: true }
             color: Theme.ink
         }
         Row {
             id: pages
-            x: head.tight ? 0 : title.width + Theme.gap
-            anchors.verticalCenter: parent.verticalCenter
-            spacing: 9 * Theme.unit
-            PanelButton {
+            x: head.tight ? 0 : title.width + 2 * Theme.gap
+            anchors.bottom: parent.bottom
+            spacing: Theme.gap
+            PanelTab {
                 objectName: "panel-today"
-                width: implicitWidth
                 words: view.words["console-today"]
                 chosen: view.onToday
-                choosable: true
-                Accessible.role: Accessible.PageTab
                 onClicked: view.onToday = true
             }
-            PanelButton {
+            PanelTab {
                 id: second
                 objectName: "panel-next"
-                width: implicitWidth
                 words: view.words["console-next-page"]
                 chosen: !view.onToday
-                choosable: true
-                Accessible.role: Accessible.PageTab
                 onClicked: view.onToday = false
             }
         }
         PlainText {
             id: clock
             objectName: "today-clock"
-            anchors { right: close.left; rightMargin: Theme.gap; verticalCenter: parent.verticalCenter }
+            anchors { right: close.left; rightMargin: Theme.gap; verticalCenter: close.verticalCenter }
             text: view.panel.today.clock
             font { pixelSize: Theme.dense * 1.8; bold: true }
             color: Theme.ink
@@ -75,15 +70,22 @@ FocusScope {
         PanelButton {
             id: close
             objectName: "panel-close"
-            anchors { right: parent.right; verticalCenter: parent.verticalCenter }
+            anchors { right: parent.right; top: parent.top }
             words: view.words["console-close"]
             focus: true
             onClicked: view.panel.wish("panel", "")
         }
     }
+    // The tabs stand on it.
+    Rectangle {
+        id: rule
+        anchors { top: head.bottom; left: parent.left; right: parent.right; leftMargin: view.edge; rightMargin: view.edge }
+        height: 2 * Theme.unit
+        color: Theme.edge
+    }
     Flickable {
         id: pane
-        anchors { top: head.bottom; left: parent.left; right: parent.right; bottom: foot.top; margins: view.space }
+        anchors { top: rule.bottom; left: parent.left; right: parent.right; bottom: foot.top; margins: view.edge; topMargin: view.space; bottomMargin: view.space }
         contentHeight: content.height
         clip: true
         boundsBehavior: Flickable.StopAtBounds
@@ -133,7 +135,7 @@ FocusScope {
     }
     Item {
         id: foot
-        anchors { left: parent.left; right: parent.right; bottom: parent.bottom; margins: view.space }
+        anchors { left: parent.left; right: parent.right; bottom: parent.bottom; margins: view.edge; bottomMargin: view.space }
         height: Math.max(keys.height, shortcuts.visible ? shortcuts.height : 0)
         Balanced {
             id: keys

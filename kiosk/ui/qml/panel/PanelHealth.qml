@@ -1,0 +1,52 @@
+// How everything is that is well; the notice tells the rest. In two columns where there is room for them.
+pragma ComponentBehavior: Bound
+import QtQuick
+import Recollect
+import ".."
+
+PanelSection {
+    id: health
+
+    required property PanelScreen panel
+    property bool double: false
+    readonly property var words: panel.words
+    readonly property var none: ({ name: words["console-alarms"], message: words["console-alarms-none"], is_ok: true })
+    readonly property var lines: panel.alarms.length > 0 ? panel.health.lines : [...panel.health.lines, none]
+
+    // What a wide screen has left is shared among the lines.
+    readonly property real each: double ? 0 : Math.max(0, Math.min(76 * Theme.unit, (least - Math.max(1.4 * size, crown) - 2 * size) / (lines.length + 0.3)))
+    readonly property real named: Math.min(0.4 * table.column, Math.ceil(Math.max(0, ...lines.map(line => letters.advanceWidth(line.name)))) + 14 * Theme.unit)
+    FontMetrics {
+        id: letters
+        font { pixelSize: health.size; bold: true }
+    }
+
+    title: words[panel.health.well ? "console-health" : "console-rest-well"]
+    visible: lines.length > 0
+
+    Grid {
+        id: table
+        readonly property real column: (parent.width - (columns - 1) * columnSpacing) / columns
+        width: parent.width
+        columns: health.double ? 2 : 1
+        columnSpacing: Theme.gap
+        rowSpacing: health.each > 0 ? 0 : 14 * Theme.unit
+        Repeater {
+            model: health.lines
+            delegate: Item {
+                id: place
+                required property var modelData
+                width: table.column
+                height: Math.max(health.each, line.height)
+                PanelLine {
+                    id: line
+                    anchors.verticalCenter: health.double ? undefined : parent.verticalCenter
+                    width: parent.width
+                    line: place.modelData
+                    size: health.size
+                    named: health.named
+                }
+            }
+        }
+    }
+}
