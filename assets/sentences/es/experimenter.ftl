@@ -115,7 +115,7 @@ console-policy = Política
 console-study = Estudio
 console-pin-line-name = PIN
 console-pin-set = se pide
-console-pin-none = no hay; cada sesión es una prueba, y cualquiera puede abrir el panel
+console-pin-none = no hay; las sesiones son pruebas y el panel no está protegido
 console-pin-remedy = Ponlo con “recollect study set-pin”
 console-screen = Pantalla
 

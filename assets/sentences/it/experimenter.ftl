@@ -115,7 +115,7 @@ console-policy = Politica
 console-study = Studio
 console-pin-line-name = PIN
 console-pin-set = viene chiesto
-console-pin-none = non c’è; ogni sessione è una prova, e chiunque può aprire il pannello
+console-pin-none = non c’è; le sessioni sono prove e il pannello non è protetto
 console-pin-remedy = Impostalo con “recollect study set-pin”
 console-screen = Schermo
 

@@ -13,7 +13,7 @@ PanelSection {
     readonly property var choices: panel.choices
     readonly property real space: apart
     // How high they are: higher where they have a column of their own.
-    readonly property bool ample: wide && least > 0 && choices.underWay && !choices.canBeNext && Theme.textSize <= 1.15
+    readonly property bool ample: wide && least > 0 && !choices.canBeNext && !(choices.onBreak && choices.underWay) && Theme.textSize <= 1.15
     readonly property real tall: (ample ? 92 : wide ? 84 : 92) * Theme.unit
     readonly property real mainTall: (ample ? 120 : wide ? 108 : 104) * Theme.unit
 
@@ -59,6 +59,7 @@ PanelSection {
             onClicked: actions.panel.wish("next", "")
         }
         PanelSwitch {
+            id: pause
             objectName: "action-pause"
             visible: actions.choices.underWay
             least: actions.tall
@@ -72,6 +73,8 @@ PanelSection {
         Action {
             objectName: "action-again"
             visible: actions.choices.underWay
+            // As high as what it stands beside.
+            least: actions.wide ? actions.tall : pause.height
             words: actions.words["console-repeat"]
             drawing: "M19.5 12 A7.5 7.5 0 1 1 16.6 6.1 M17.5 2 V6.8 H12.7"
             onClicked: actions.panel.wish("repeat", "")

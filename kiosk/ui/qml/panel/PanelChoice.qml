@@ -14,6 +14,8 @@ Column {
     // Whether they take all of the width, in one row where their words fit.
     property bool even: false
     property real least: 68 * Theme.unit
+    // How wide each answer is at least, however short its words.
+    property real broad: 0
     // How large its title and its answers are written.
     property real size: Theme.dense
     property real lettering: Theme.dense
@@ -45,7 +47,7 @@ Column {
                 least: choice.least
                 horizontalPadding: (choice.even ? 8 : 18) * Theme.unit
                 font.pixelSize: choice.lettering
-                width: choice.even && implicitWidth <= choice.each ? choice.each : Math.min(implicitWidth, choice.width)
+                width: choice.even && implicitWidth <= choice.each ? choice.each : Math.min(Math.max(choice.broad, Math.ceil(implicitWidth)), choice.width)
                 Accessible.role: Accessible.RadioButton
                 Accessible.name: `${choice.title} ${words}`
                 onClicked: choice.picked(modelData.value)

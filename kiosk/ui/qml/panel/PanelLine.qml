@@ -9,7 +9,7 @@ Row {
     required property var line
     property real size: Theme.dense
     // How wide its name is at most, so that the words of all lines begin at one place.
-    property real named: Math.min(0.29 * width, 9 * size)
+    property real named: Math.min(0.29 * width, 6.5 * size)
 
     spacing: 10 * Theme.unit
 

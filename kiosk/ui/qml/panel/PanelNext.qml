@@ -2,6 +2,7 @@
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
+import ".."
 
 Item {
     id: next
@@ -11,17 +12,32 @@ Item {
     required property real space
     readonly property var words: panel.words
     readonly property var choices: panel.choices
+    // As large as on the first page.
+    readonly property real size: (wide ? 1.15 : 1) * Theme.dense
+    readonly property real crown: names.visible ? names.height : 0
 
     height: wide ? Math.max(left.height, right.height) : left.height + space + right.height
+
+    component Choice: PanelChoice {
+        size: next.size
+        lettering: next.size
+        least: 80 * Theme.unit
+        broad: 92 * Theme.unit
+    }
 
     Column {
         id: left
         width: next.wide ? Math.floor((next.width - next.space) * 0.5) : next.width
         spacing: next.space
         PanelSection {
+            id: later
             width: parent.width
             title: next.words["console-next-session"]
-            PanelChoice {
+            aside: names.visible ? names.width : 0
+            crown: next.crown
+            size: next.size
+            apart: 22 * Theme.unit
+            Choice {
                 width: parent.width
                 action: "condition"
                 title: next.words["console-condition"]
@@ -29,13 +45,18 @@ Item {
                 chosen: next.choices.condition
                 onPicked: value => next.panel.wish("condition", value)
             }
+            // As on the first page: beside the heading.
             PanelButton {
+                id: names
+                parent: later
                 objectName: "names-of-choices"
+                anchors { top: parent.top; right: parent.right; margins: later.inset; topMargin: 0.8 * Theme.gap }
+                width: Math.min(Math.ceil(implicitWidth), Math.floor(0.6 * later.width))
                 visible: next.choices.conditions.length > 0
                 words: next.choices.named ? next.words["console-names-hide"] : next.words["console-names-show"]
                 onClicked: next.panel.wish("names", "")
             }
-            PanelChoice {
+            Choice {
                 width: parent.width
                 action: "embodiment"
                 title: next.words["console-embodiment"]
@@ -43,7 +64,7 @@ Item {
                 chosen: next.choices.embodiment
                 onPicked: value => next.panel.wish("embodiment", value)
             }
-            PanelChoice {
+            Choice {
                 width: parent.width
                 action: "language"
                 title: next.words["console-language"]
@@ -51,7 +72,7 @@ Item {
                 chosen: next.choices.language
                 onPicked: value => next.panel.wish("language", value)
             }
-            PanelChoice {
+            Choice {
                 width: parent.width
                 action: "volume"
                 title: next.words["console-volume"]
@@ -63,9 +84,10 @@ Item {
         PanelSection {
             width: parent.width
             title: next.words["console-booth"]
+            size: next.size
             Repeater {
                 model: next.panel.health.more
-                delegate: PanelLine { required property var modelData; line: modelData; width: parent.width }
+                delegate: PanelLine { required property var modelData; line: modelData; width: parent.width; size: next.size }
             }
         }
     }
@@ -78,7 +100,11 @@ Item {
         PanelSection {
             width: parent.width
             title: next.words["console-deviations"]
+            size: next.size
+            // Its heading is level with the one beside it.
+            crown: next.wide ? next.crown : 0
             PanelEmpty {
+                font.pixelSize: next.size
                 words: next.words["console-deviations-none"]
                 visible: next.panel.records.deviations.length === 0
             }
@@ -87,17 +113,23 @@ Item {
                 delegate: PanelDeviation {
                     required property var modelData
                     deviation: modelData
+                    size: next.size
                     width: parent.width
                 }
             }
-            PanelEmpty { words: next.panel.records.more; visible: words !== "" }
+            PanelEmpty { words: next.panel.records.more; font.pixelSize: next.size; visible: words !== "" }
         }
-        PanelShortcuts { width: parent.width; shown: next.panel.shortcuts }
+        PanelShortcuts { width: parent.width; shown: next.panel.shortcuts; size: next.size }
         // Apart from what is pressed all day.
         PanelButton {
             objectName: "action-leave"
             anchors.right: parent.right
             words: next.words["console-quit"]
+            drawing: "M12 2.5 V11.5 M7.2 5.8 A8 8 0 1 0 16.8 5.8"
+            grave: true
+            least: 80 * Theme.unit
+            font.pixelSize: next.size
+            horizontalPadding: 24 * Theme.unit
             onClicked: next.panel.wish("quit", "")
         }
     }

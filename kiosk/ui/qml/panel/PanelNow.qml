@@ -39,7 +39,7 @@ Rectangle {
         line: [now.stage?.line ?? "", now.panel.choices.underWay ? now.panel.choices.session : ""].filter(each => each !== "").join(Theme.upright && now.wide ? "\n" : " · ")
     }
     Rectangle {
-        x: now.wide ? now.from - 0.4 * Theme.gap : now.inset
+        x: now.wide ? now.from + (Theme.upright ? 0.1 : -0.4) * Theme.gap : now.inset
         y: now.wide ? 0.8 * Theme.gap : state.y + state.height + 0.5 * Theme.gap
         width: now.wide ? 2 * Theme.unit : now.room
         height: now.wide ? now.height - 1.6 * Theme.gap : 2 * Theme.unit

@@ -17,7 +17,7 @@ Rectangle {
     readonly property real inset: Math.round(1.1 * Theme.gap)
     // How high it is at least, where it ends with another one beside it.
     property real least: 0
-    readonly property real wish: body.height + heading.height + 2.4 * Theme.gap
+    readonly property real wish: body.height + heading.height + 1.3 * Theme.gap + inset
 
     height: Math.max(least, wish)
     radius: Theme.radius

@@ -9,6 +9,13 @@ PanelSection {
     // Its title, and rows of keys and words.
     required property var shown
 
+    // All keys are as wide as the widest, so that the words stand below each other.
+    readonly property real named: Math.ceil(Math.max(0, ...shown.rows.map(row => letters.advanceWidth(row.keys)))) + 2 * Theme.unit
+    FontMetrics {
+        id: letters
+        font { pixelSize: shortcuts.size; bold: true }
+    }
+
     title: shown.title
     visible: shown.rows.length > 0
 
@@ -16,27 +23,27 @@ PanelSection {
         id: table
         width: parent.width
         columns: 2
-        columnSpacing: 12 * Theme.unit
-        rowSpacing: 6 * Theme.unit
+        columnSpacing: Theme.gap
+        rowSpacing: 10 * Theme.unit
         Repeater {
             model: shortcuts.shown.rows
             delegate: Row {
                 id: row
                 required property var modelData
                 width: (table.width - table.columnSpacing) / 2
-                spacing: 8 * Theme.unit
+                spacing: 14 * Theme.unit
                 PlainText {
                     id: keys
-                    width: Math.min(Math.max(implicitWidth, 1.2 * Theme.denser), row.width * 0.5)
+                    width: Math.min(shortcuts.named, row.width * 0.5)
                     text: row.modelData.keys
-                    font { pixelSize: Theme.denser; bold: true }
+                    font { pixelSize: shortcuts.size; bold: true }
                     color: Theme.ink
                     wrapMode: Text.Wrap
                 }
                 PlainText {
                     width: row.width - keys.width - row.spacing
                     text: row.modelData.words
-                    font.pixelSize: Theme.denser
+                    font.pixelSize: shortcuts.size
                     color: Theme.faintInk
                     wrapMode: Text.Wrap
                 }

@@ -40,6 +40,7 @@ PanelButton {
             color: bar.front
             horizontalAlignment: Text.AlignLeft
             least: 0.6
+            lineHeight: 0.9
             Accessible.ignored: true
         }
         // The knob says which it is without a colour.
