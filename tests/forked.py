@@ -17,7 +17,11 @@ from typing import Self
 
 ROOT = Path(__file__).parents[1]
 
-LOADED = ("kiosk.store.queries", "kiosk.study.loader", "kiosk.export.dataset", "kiosk.ui.app", "kiosk.ui.rehearsal")
+LOADED = (
+    *("kiosk.store.queries", "kiosk.study.loader", "kiosk.export.dataset", "kiosk.ui.app", "kiosk.ui.rehearsal"),
+    # What is loaded late, so that a kiosk opens sooner, or by few commands.
+    *("kiosk.study.checks", "kiosk.robots.audio", "miniaudio", "click", "rich.table", "rich.live"),
+)
 
 ANALYSES = (
     *("kiosk.analysis.calibrate", "kiosk.analysis.plan", "kiosk.analysis.policy_figures", "kiosk.analysis.power"),

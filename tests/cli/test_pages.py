@@ -71,6 +71,7 @@ LESS = {
     "train *": ("--episodes", "200"),
     "simulate *": ("--games", "50"),
     "policy card *": ("--games", "200"),
+    "rehearse * --shots *": ("--study", "smallest.toml", "--layout", "wide"),
     "rehearse *": ("--study", "smallest.toml", "--sessions", "1"),
     "replay * --frames *": ("--speed", "32"),
     "replay * --film *": ("--speed", "32"),
@@ -78,8 +79,12 @@ LESS = {
     "plan freeze plan.toml": ("--data", "new-data"),
     "voice import *": ("--study", "study.toml", "--language", "en"),
     "check --say": ("--study", "study.toml"),
+    "check --study study.toml*": ("--study", "smallest.toml"),
 }
 """What makes long work short; nothing else of a command is changed, but for what is yours to fill in."""
+
+IN_ONE_LANGUAGE = ("study dossier *", "study check * --pages")
+"""Commands that go through every language of a study in a window of its own."""
 
 MADE_BEFORE = (
     "plan new plan.toml",
@@ -199,8 +204,8 @@ class Desk:
 
 
 def a_visit(seed: int) -> Driver:
-    """Return a session on a small board, which is soon replayed; after some seeds it has few flips."""
-    driver = Driver(plan(stages=("introduction", "game", "result"), game={"rows": 2, "columns": 4}), seed)
+    """Return a session on the smallest board, which is soon replayed; after some seeds it has few flips."""
+    driver = Driver(plan(stages=("introduction", "game", "result"), game={"rows": 2, "columns": 2}), seed)
     driver.to(Stage.GAME)
     choose = at_random(seed)
     while driver.stage is Stage.GAME:
@@ -226,12 +231,12 @@ def desk(loaded: LoadedProgram, tmp_path_factory: pytest.TempPathFactory) -> Des
     stored = home / "share" / "recollect"
     two = (Condition.TOM, Condition.NOTOM)
     people = [(visitor(seed, two[seed % 2]), seed) for seed in range(2, 12)]
-    store(stored, [(a_visit(8), 1), *people, (a_visit(21), 12)])
+    store(stored, [(a_visit(14), 1), *people, (a_visit(6), 12)])
     code = new_code(stored, 2)
     for name in ("both", "DIR"):
         shutil.copytree(stored, folder / name)
     for name, site in (("booth-1", "ROME"), ("booth-2", "PISA")):
-        store(folder / name, [(a_visit(34), 3)], site=site)
+        store(folder / name, [(a_visit(6), 3)], site=site)
     for name in ("data-set", "study", "simulated"):
         export_dataset(stored, folder / name, PsychDs)
     _write_studies(folder)
@@ -305,6 +310,8 @@ def test_what_many_pages_have_you_type_works(command: str, desk: Desk, loaded: L
 def typed(command: str, desk: Desk, loaded: LoadedProgram) -> subprocess.CompletedProcess[str]:
     """Run a command of a page with what is yours to fill in, and short work."""
     given = {"7KQ2M-XR4T4": desk.code, "FILE": "items.csv", "age1...": AGE_KEY}
+    if any(fnmatch(command, pattern) for pattern in IN_ONE_LANGUAGE):
+        given["study.toml"] = "smallest.toml"
     words = [given.get(word, word).replace("~", str(desk.home)) for word in shlex.split(command)]
     less = next((more for pattern, more in LESS.items() if fnmatch(command, pattern)), ())
     yes = ("--yes",) if words[0] == "withdraw" else ()
