@@ -108,13 +108,20 @@ class Extension:
 
 
 @cache
+def registered_entries() -> Mapping[ExtensionGroup, tuple[EntryPoint, ...]]:
+    """Read what every package registers, for all groups at once: it takes opening a file of each package."""
+    there = entry_points()
+    return {group: tuple(there.select(group=group.value)) for group in ExtensionGroup}
+
+
+@cache
 def installed(group: ExtensionGroup) -> tuple[Extension, ...]:
     """List everything of a group: what is built in, then what other packages registered, by name."""
     own = [
         Extension(group, name, OWN, __version__, EntryPoint(name, place, group.value))
         for name, place in _BUILT_IN.get(group, {}).items()
     ]
-    found = entry_points(group=group.value)
+    found = registered_entries()[group]
     others = [
         Extension(group, each.name, each.dist.name, each.dist.version, each) for each in found if each.dist is not None
     ]

@@ -19,7 +19,7 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.assistance.policy import find_action
-from kiosk.extensions import installed
+from kiosk.extensions import installed, registered_entries
 from kiosk.study.new import TEMPLATES
 from tests.forked import ROOT, LoadedProgram
 from tests.shared import made_once
@@ -196,6 +196,7 @@ def beside(monkeypatch: pytest.MonkeyPatch) -> Iterator[Beside]:
 
     def put(folder: Path) -> None:
         monkeypatch.syspath_prepend(str(folder))
+        registered_entries.cache_clear()
         installed.cache_clear()
         find_action.cache_clear()
 
@@ -204,6 +205,7 @@ def beside(monkeypatch: pytest.MonkeyPatch) -> Iterator[Beside]:
     for name in set(sys.modules) - before:
         if name.partition(".")[0] in {"a_lab", "printing_robot", "recollect_encourage"}:
             del sys.modules[name]
+    registered_entries.cache_clear()
     installed.cache_clear()
     find_action.cache_clear()
 
