@@ -31,7 +31,7 @@ from kiosk.store import drives, maintenance
 from kiosk.store.database import has_database, in_use
 from kiosk.store.participants import checked_site
 
-HELLO = "introduction-title"
+HELLO = "attract-greeting"
 """What the robot says: a word of welcome that every language has."""
 
 NOT_OPENED = 1
@@ -151,7 +151,7 @@ def _voice(settings: Settings, said: Iterator[CheckResult], ask: Ask) -> Iterato
 def _robot(settings: Settings, study: StudyConfig, ask: Ask) -> Iterator[Step]:
     """Have the robot say hello; without it the avatar helps."""
     plan = study.plans[0]
-    tried = greet(settings, plan.language, plan.catalogue.text(HELLO))
+    tried = greet(settings, plan.language, plan.catalogue.wordings(HELLO)[0])
     if tried is None:
         yield Step("robot", ok=True, found="none in the study file: the avatar helps")
     elif not tried.worked:

@@ -60,7 +60,7 @@ age-no = No
 
 ## Introduction
 
-introduction-title = Hello!
+introduction-title = How to play
 introduction-speech =
     .a = Hello, nice to meet you! There are { $cards } cards, and every picture is there twice. Find all the pairs. Good luck!
     .b = Hello, I am glad you are here! { $cards } cards, { $pairs } pairs: find them all. Have fun!
@@ -69,7 +69,7 @@ introduction-speech-alone =
     .b = Hello, I am glad you are here! { $cards } cards, { $pairs } pairs: find them all. Have fun!
 introduction-turn = Turn two cards at a time.
 introduction-match = Two alike stay open. Two different ones turn back.
-introduction-help = Now and then I give you a hint. Whether you take it is up to you.
+introduction-help = Now and then I give a hint. You decide whether to take it.
 introduction-continue = I am ready
 
 ## Practice

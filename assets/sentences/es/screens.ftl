@@ -61,7 +61,7 @@ age-no = No
 
 ## Introduction
 
-introduction-title = ¡Hola!
+introduction-title = Cómo se juega
 introduction-speech =
     .a = ¡Hola, me alegro de conocerte! Hay { $cards } cartas, y cada dibujo está dos veces. Encuentra todas las parejas. ¡Mucha suerte!
     .b = ¡Hola, qué bien que estés aquí! { $cards } cartas, { $pairs } parejas: encuéntralas todas. ¡Que te diviertas!

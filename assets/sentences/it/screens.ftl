@@ -61,7 +61,7 @@ age-no = No
 
 ## Introduction
 
-introduction-title = Ciao!
+introduction-title = Come si gioca
 introduction-speech =
     .a = Ciao, che piacere conoscerti! Ci sono { $cards } carte, e ogni figura c'è due volte. Trova tutte le coppie. In bocca al lupo!
     .b = Ciao, che bello averti qui! { $cards } carte, { $pairs } coppie: trovale tutte. Buon divertimento!

@@ -32,14 +32,14 @@ FocusScope {
     readonly property int markRow: board.markRow
     readonly property int markColumn: board.markColumn
     // How much of a cell a card takes.
-    readonly property real share: upright ? 0.97 : 0.91
+    readonly property real share: upright ? 0.98 : 0.91
     // On an upright screen, what stands above the cards begins with their numbers and ends with a mark's frame around them.
     // The cards' pictures have a narrow margin.
     readonly property real margin: (1 - 0.962 * share) / 2
     readonly property real headLeft: table.x - gutter
     readonly property real headRight: table.x + table.width
     // On an upright screen, the room of the rows' numbers and their arrow beside the cards.
-    readonly property real gutter: (upright ? 54 : 0) * Theme.unit
+    readonly property real gutter: (upright ? 50 : 0) * Theme.unit
 
     // Columns are counted from the left in every language, on the board and in what is said.
     LayoutMirroring.enabled: false
@@ -49,12 +49,12 @@ FocusScope {
     readonly property real side: broad ? Math.min(300 * Theme.unit, 0.17 * width) : 0
     // Where the cards leave room for it, the tray has two rows of larger places.
     readonly property bool tall: height - (182 + 70) * Math.max(1, Theme.textSize) * Theme.unit - rows * widest > 70 * Theme.unit
-    readonly property int shelfLines: pairs > 12 ? 2 : 1
+    readonly property int shelfLines: pairs > (Theme.textSize > 1 ? 12 : 6) ? 2 : 1
     readonly property int lines: upright ? shelfLines : tall ? 2 : 1
     // On an upright screen: the line of words above the tray, and a place of the tray. They depend on no height.
     readonly property real wordsLine: (78 * Math.max(1, Theme.textSize) + 20) * Theme.unit + wordsApart
     readonly property real wordsApart: 20 * Theme.unit
-    readonly property real shelfSlot: Math.floor(Math.min(84 * Theme.unit, wide / Math.max(1, Math.ceil(pairs / shelfLines))))
+    readonly property real shelfSlot: Math.floor(Math.min(74 * Theme.unit, wide / Math.max(1, Math.ceil(pairs / shelfLines))))
     readonly property real shelf: wordsLine + shelfLines * shelfSlot + 8 * Theme.unit
     readonly property real usualStrip: upright ? shelf : (tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
     readonly property real strip: broad ? 0 : usualStrip
@@ -83,10 +83,12 @@ FocusScope {
     readonly property bool skipsBelow: !broad && above > width
     // Beside the numbers there is room for a mark's arrow.
     readonly property real numbers: (upright ? 66 : 78) * Theme.unit
-    // On an upright screen the cards and the numbers of their rows are together as wide as the helper's sentence.
-    readonly property real wide: width - 4 * Theme.gap
+    // On an upright screen the cards and the numbers of their rows are together as wide as the helper's sentence, and
+    // nearly as the screen: the cards are as large as that allows.
+    readonly property real edge: 20 * Theme.unit
+    readonly property real wide: width - 2 * edge
     readonly property real widestUpright: (wide - gutter) / Math.max(1, columns)
-    readonly property real footer: pill.height + (upright ? 28 : 22) * Theme.unit + (practises && skipsBelow ? skip.height + Theme.gap : 0)
+    readonly property real footer: pill.height + (upright ? 16 : 22) * Theme.unit + (practises && skipsBelow ? skip.height + Theme.gap : 0)
     // How high this item has to be on an upright screen, for cells as wide as there is room for.
     readonly property real widest: upright ? widestUpright : (width - 2 * side - numbers - 2 * Theme.gap) / Math.max(1, columns)
     readonly property real wish: 52 * Theme.unit + shelf + apart + numbers + pill.height
@@ -310,7 +312,7 @@ FocusScope {
             row: view.markRow
             column: view.markColumn
             cell: view.cell
-            arrow: (view.upright ? 20 : 28) * Theme.unit
+            arrow: (view.upright ? 18 : 28) * Theme.unit
             apart: (view.upright ? 4 : 5) * Theme.unit
         }
         Repeater {
@@ -454,7 +456,7 @@ FocusScope {
             Rectangle {
                 visible: place.proud > 0
                 anchors.centerIn: parent
-                width: (view.framed + 9 * Theme.unit) * (1 + 0.09 * place.cheer)
+                width: (view.framed + 5 * Theme.unit) * (1 + 0.09 * place.cheer)
                 height: width
                 opacity: place.proud
                 radius: width * 0.12

@@ -37,25 +37,27 @@ Item {
         width: words.width
         textFormat: Text.PlainText
         text: words.text
-        font.pixelSize: Theme.size(bubble.calls ? 50 : bubble.grows ? (larger.lineCount <= 2 ? 40 : large.lineCount <= 2 ? 36 : 33) : 36)
+        font.pixelSize: Theme.size(bubble.calls ? 50 : bubble.grows ? (large.lineCount <= 2 ? 38 : 34) : 36)
         lineHeight: words.lineHeight
         wrapMode: Text.Wrap
     }
     // The same in large words, where there is room for two lines of them.
-    component Trial: Text {
+    Text {
+        id: large
         visible: false
         width: words.width
         textFormat: Text.PlainText
         text: bubble.grows ? words.text : ""
         wrapMode: Text.Wrap
+        font.pixelSize: Theme.size(38)
     }
-    Trial { id: larger; font.pixelSize: Theme.size(40) }
-    Trial { id: large; font.pixelSize: Theme.size(36) }
     Rectangle {
         id: box
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom; bottomMargin: bubble.tail }
         height: Math.max(words.height, least) + bubble.tag + 2 * Theme.gap
-        readonly property real least: bubble.grows ? Math.min(bubble.room, 2 * words.lineHeight * 1.37 * usual.font.pixelSize) : 0
+        readonly property real least: bubble.grows ? Math.min(bubble.room, 2 * words.lineHeight * 1.37 * large.font.pixelSize) : 0
+        // Words that leave some of it free stand in the middle between the name and the lower edge.
+        readonly property real lower: Math.max(0, least - words.height) / 2
         radius: Theme.radius
         color: Theme.white
         border.color: Theme.sea
@@ -63,7 +65,7 @@ Item {
 
         Balanced {
             id: words
-            anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap; topMargin: Theme.gap + bubble.tag + Math.max(0, (box.least - height) / 2) }
+            anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap; topMargin: Theme.gap + bubble.tag + box.lower + Math.min(0.35 * Theme.gap, box.lower) }
             // What would not fit above the face is set smaller: half the size takes a quarter of the room.
             font.pixelSize: {
                 const share = Math.max(0, bubble.room / Math.max(1, usual.height))

@@ -84,6 +84,7 @@ Item {
         ]
         // Pictures are mostly as light as the page: the rim ends where a closed card ends, and turns with the picture.
         Rectangle {
+            objectName: "rim"
             anchors { fill: parent; margins: 0.019 * card.width }
             visible: card.rimShown > 0
             radius: 0.115 * card.width

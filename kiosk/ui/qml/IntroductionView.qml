@@ -118,9 +118,9 @@ PageFrame {
         }
         Balanced {
             id: telling
-            x: view.abreast ? scene.pad : Theme.across(scene.pad + scene.numbers + board.width + 1.2 * Theme.gap, width, scene.width)
+            x: view.abreast ? (scene.width - width) / 2 : Theme.across(scene.pad + scene.numbers + board.width + 1.2 * Theme.gap, width, scene.width)
             y: view.abreast ? board.y + board.height + 0.6 * Theme.gap : (scene.height - height) / 2
-            width: scene.width - 2 * scene.pad - (view.abreast ? 0 : scene.numbers + 3 * scene.small + 1.2 * Theme.gap)
+            width: scene.width - 2 * (view.abreast ? Math.max(scene.pad, 32 * Theme.unit) : scene.pad) - (view.abreast ? 0 : scene.numbers + 3 * scene.small + 1.2 * Theme.gap)
             text: scene.text
             font { pixelSize: view.abreast ? Theme.reading : Theme.textSize > 1.15 ? Theme.body : Theme.size(38); bold: true }
             horizontalAlignment: view.abreast ? Text.AlignHCenter : Text.AlignLeft
@@ -148,10 +148,12 @@ PageFrame {
         Scene {
             id: match
             text: view.words["introduction-match"]
-            pictures: [1, 2, 3, 0, 2, 3]
+            // Not below each other, where their frames would touch.
+            readonly property int partner: view.across === 2 ? 4 : 5
+            pictures: view.across === 2 ? [1, 2, 3, 0, 2, 3] : [1, 2, 3, 0, 3, 2]
             plays: view.beat >= 5 && view.beat < 9
             found: view.still || view.beat >= 7
-            up: view.still || view.beat >= 7 ? [1, 4] : view.beat === 6 ? [1] : []
+            up: view.still || view.beat >= 7 ? [1, partner] : view.beat === 6 ? [1] : []
         }
         // What a hint marks: a column, a row, a card.
         Scene {

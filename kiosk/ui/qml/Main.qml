@@ -146,6 +146,7 @@ Window {
               : attractView.visible ? (root.texts > 1.3 ? 0.76 : Math.max(helper.says ? 0.57 : 0.64, 0.57 + 0.25 * (root.texts - 1)))
               // Its boards keep their distance to the buttons.
               : root.kiosk.screen === "introduction" && root.texts <= 1.15 ? 0.66
+              : root.kiosk.screen === "result" && root.texts <= 1.15 ? 0.67
               : !boardPage.visible ? 0.64
               // The helper keeps its size from the practice to the game.
               : Math.max(root.texts <= 1 ? 0.628 : 0.62, Math.min(0.64, boardPage.view.wish / root.room))
@@ -349,8 +350,8 @@ Window {
         readonly property real reach: boardPage.visible && !root.wide && root.avatar.present && root.texts <= 1 ? 80 * Theme.unit : 0
         y: below ? stage.y + stage.height - reach : above
         // Beside a robot on a wide screen, what is said ends before the controls.
-        // An upright screen's bubble has the edges of its pages.
-        width: !below ? root.width - stage.width - Theme.gap : broad ? root.width - 4 * Theme.gap
+        // An upright screen's bubble has the edges of its pages, and of the cards.
+        width: !below ? root.width - stage.width - Theme.gap : broad ? root.width - (boardPage.visible ? 2 * boardPage.view.edge : 4 * Theme.gap)
              : Math.min(0.76 * root.width, root.width - 2 * (3 * corner.step + 1.7 * Theme.gap))
         height: root.high ? root.sentence : below ? root.room - y : root.room - above
         visible: !root.whole || root.speaks
@@ -361,7 +362,7 @@ Window {
         rests: root.kiosk.paused
         waits: root.kiosk.asks !== "" || root.kiosk.asksStillThere
         // Large sentences need the room.
-        share: root.wide ? (attractView.visible ? 0.6 : 0.52) : root.texts <= 1.15 ? (boardPage.visible ? (root.texts <= 1 ? 0.77 : 0.68) : attractView.visible ? (says ? 0.88 : 0.98) : root.kiosk.screen === "introduction" ? 0.68 : 0.72) : 0.64
+        share: root.wide ? (attractView.visible ? 0.6 : 0.52) : root.texts <= 1.15 ? (boardPage.visible ? (root.texts <= 1 ? 0.77 : 0.68) : attractView.visible ? (says ? 0.88 : 0.98) : root.kiosk.screen === "introduction" ? 0.68 : root.kiosk.screen === "result" ? 0.755 : 0.72) : 0.64
         broad: !root.wide
         calls: root.accompanied && attractView.visible
         grows: reach > 0

@@ -24,7 +24,7 @@ Item {
     readonly property real slot: Math.floor(Math.min(width / (Math.max(1, columns) + 2 * rim), height / Math.max(1, lines)))
 
     // A whole number, as the board loads them beforehand.
-    readonly property int card: Math.round(slot * (paired ? 0.7 : 0.76))
+    readonly property int card: Math.round(slot * (paired ? 0.8 : 0.76))
     // How far one card of a pair lies from the middle of its place, where they lie on each other.
     readonly property real behind: Math.max(1, Math.round(0.03 * slot))
     readonly property real pitch: spreads ? width / Math.max(1, columns) : slot
@@ -54,7 +54,7 @@ Item {
             readonly property point centre: tray.middle(index)
             x: centre.x - width / 2
             y: centre.y - tray.slot / 2
-            width: tray.spreads ? Math.min(tray.pitch, 1.75 * tray.slot) : tray.slot
+            width: tray.spreads ? Math.min(tray.pitch - 14 * Theme.unit, 2.1 * tray.slot) : tray.slot
             height: tray.slot
 
             Rectangle {
@@ -81,7 +81,7 @@ Item {
                     readonly property int side: index === 0 ? -1 : 1
                     anchors {
                         centerIn: parent
-                        horizontalCenterOffset: !tray.paired ? tray.behind : side * Math.max(0.05 * tray.slot, Math.min(0.5 * tray.card + Theme.unit, (place.width - tray.card) / 2 - 0.09 * tray.slot))
+                        horizontalCenterOffset: !tray.paired ? tray.behind : side * Math.max(0.05 * tray.slot, Math.min(0.5 * tray.card + 0.03 * tray.slot, (place.width - tray.card) / 2 - 0.09 * tray.slot))
                         verticalCenterOffset: tray.paired ? 0 : tray.behind
                     }
                     width: tray.card

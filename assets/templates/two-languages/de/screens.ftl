@@ -60,7 +60,7 @@ age-no = Nein
 
 ## Introduction
 
-introduction-title = Hallo!
+introduction-title = So wird gespielt
 introduction-speech =
     .a = Hallo, schön, dass du da bist! Es gibt { $cards } Karten, und jedes Bild ist zweimal da. Finde alle Paare. Viel Glück!
     .b = Hallo, ich freue mich, dass du hier bist! { $cards } Karten, { $pairs } Paare: Finde sie alle. Viel Spaß!
