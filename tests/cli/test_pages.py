@@ -24,7 +24,7 @@ from kiosk.export.layouts import PsychDs
 from kiosk.robots.audio import Clip
 from kiosk.study.wording_drafts import Candidate, Draft, State
 from kiosk.training.simulated_players import PEOPLE_FORMAT
-from tests.cli.test_readme import DECK, LEFT_AT_ONCE, rows
+from tests.cli.test_readme import DECK, LEFT_AT_ONCE, ONE_LAYOUT, rows
 from tests.experiment.driver import Driver, at_random
 from tests.export.visitors import store, visitor
 from tests.forked import ANALYSES, CHECKED, LEAST_SPOKEN, PLAYED, PROGRAM, LoadedProgram
@@ -71,7 +71,7 @@ LESS = {
     "train *": ("--episodes", "200"),
     "simulate *": ("--games", "50"),
     "policy card *": ("--games", "200"),
-    "rehearse * --shots *": ("--study", "smallest.toml", "--layout", "wide"),
+    "rehearse * --shots *": ("--study", "smallest.toml", *ONE_LAYOUT),
     "rehearse *": ("--study", "smallest.toml", "--sessions", "1"),
     "replay * --frames *": ("--speed", "32"),
     "replay * --film *": ("--speed", "32"),

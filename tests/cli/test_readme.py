@@ -33,9 +33,10 @@ SMALL = """
 languages = ["en"]
 stages = ["introduction", "game", "result"]
 [game]
-rows = 3
-columns = 4
+rows = 2
+columns = 5
 """
+"""The smallest board that takes as many flips as the page asks about."""
 LESS = {
     "train": ("--episodes", "200"),
     "simulate": ("--games", "50"),
@@ -44,6 +45,8 @@ LESS = {
 """What makes long work short; nothing else of a row is changed, but for what stands in capitals."""
 LESS_OF_A_REPLAY = ("--speed", "32")
 """The same for a replay that is looked at later."""
+ONE_LAYOUT = ("--layout", "wide")
+"""The same for the pictures of a rehearsal; tests/ui/test_rehearsal.py has those of both layouts."""
 
 TRIED_BY_ROWS = {"rehearse", "replay", "check", "run", "report", "status"}
 """Commands of a tutorial that take long or need a kiosk; the rows try all but the report."""
@@ -144,7 +147,7 @@ def begun(tmp_path_factory: pytest.TempPathFactory, loaded: LoadedProgram) -> Pa
         (newcomer.home / "cards").mkdir()
         for card in DECK:
             shutil.copy(ROOT / "assets" / "cards" / "animals" / f"{card}.svg", newcomer.home / "cards")
-        assert start.start(["--study", "small.toml"]) == 0
+        assert start.start(["--study", "small.toml", *ONE_LAYOUT]) == 0
     assert said[-1].splitlines()[2].startswith("  source .venv/bin/activate")
     assert "recollect study new my-study" in said[-1], "it ends with what to do next"
     assert list((newcomer.home / "checkout" / "rehearsals" / "first").glob("*.png"))
@@ -156,7 +159,7 @@ def begun(tmp_path_factory: pytest.TempPathFactory, loaded: LoadedProgram) -> Pa
 def newcomer(begun: Path, tmp_path: Path, loaded: LoadedProgram) -> Newcomer:
     """Return the same home for every row, so that none depends on what another one did."""
     shutil.copytree(begun / "share", tmp_path / "share")
-    (tmp_path / "smallest.toml").write_text(SMALL.replace("3", "2").replace("4", "2"))
+    (tmp_path / "smallest.toml").write_text(SMALL.replace("5", "2"))
     return Newcomer(tmp_path, loaded)
 
 
@@ -174,7 +177,8 @@ def test_every_row_works_as_it_is_printed(row: str, newcomer: Newcomer) -> None:
     has_a_window = command in {"", "replay"}
     how = LEFT_AT_ONCE if has_a_window else CHECKED if command == "check" else PROGRAM
     less = LESS_OF_A_REPLAY if {"--film", "--headless"} & set(arguments) and command == "replay" else ()
-    done = newcomer.run([*filled_in(newcomer, arguments), *LESS.get(command, less)], how)
+    less = (*LESS.get(command, less), *(ONE_LAYOUT if "--shots" in arguments else ()))
+    done = newcomer.run([*filled_in(newcomer, arguments), *less], how)
     assert "Traceback" not in done.stderr
     if command == "status":
         # No kiosk runs here: either none ever has, or one that was left.
