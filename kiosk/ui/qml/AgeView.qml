@@ -123,7 +123,7 @@ PageFrame {
                 objectName: "age-yes"
                 words: view.words["age-yes"]
                 meaning: view.age.older
-                sign: "M120 15 A26 26 0 0 1 120 67 A26 26 0 0 1 120 15 M120 96 V144 M74 130 L92 96 H148 L166 130 M88 220 L120 144 L152 220"
+                sign: "M120 15 A26 26 0 0 1 120 67 A26 26 0 0 1 120 15 M120 101 V144 M74 130 L92 96 H148 L166 130 M88 220 L120 144 L152 220"
                 focus: true
                 onClicked: view.age.answer(true)
             }
@@ -132,7 +132,7 @@ PageFrame {
                 objectName: "age-no"
                 words: view.words["age-no"]
                 meaning: view.age.younger
-                sign: "M120 84 A22 22 0 0 1 120 128 A22 22 0 0 1 120 84 M120 152 V176 M86 174 L100 152 H140 L154 174 M98 220 L120 176 L142 220"
+                sign: "M120 84 A22 22 0 0 1 120 128 A22 22 0 0 1 120 84 M120 157 V176 M86 174 L100 152 H140 L154 174 M98 220 L120 176 L142 220"
                 onClicked: view.age.answer(false)
             }
         }

@@ -19,7 +19,8 @@ Rectangle {
     property real least: 0
     readonly property real wish: body.height + heading.height + 1.3 * Theme.gap + inset
 
-    height: Math.max(least, wish)
+    // Whole pixels, so that those side by side end in line.
+    height: Math.ceil(Math.max(least, wish))
     radius: Theme.radius
     color: Theme.white
     border { color: Theme.edge; width: 2 * Theme.unit }

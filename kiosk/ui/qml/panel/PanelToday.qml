@@ -91,7 +91,7 @@ Item {
             width: parent.width
             apart: today.airy
             size: today.size
-            least: today.wide ? Math.floor(today.foot - today.below - counts.height - today.space - Theme.unit) : 0
+            least: today.wide ? Math.floor(today.foot - today.below - counts.height - today.space) : 0
             words: today.words
             records: today.panel.records
         }
