@@ -113,23 +113,24 @@ def health_lines(state: HealthInputs, catalogue: Catalogue) -> tuple[HealthLine,
         _database(state, catalogue),
         _clock(state.clocks, catalogue),
         # Before the supervisor, which starts no study without a PIN.
-        HealthLine(translate("console-pin-line-name"), translate("console-pin-set"))
-        if state.has_pin
-        else HealthLine(
+        _line_of_what_is_needed(
             translate("console-pin-line-name"),
+            translate("console-pin-set") if state.has_pin else "",
             translate("console-pin-none"),
-            is_ok=False,
-            remedy=translate("console-pin-remedy"),
+            translate("console-pin-remedy"),
         ),
-        HealthLine(translate("console-supervisor"), translate("console-supervisor-there"))
-        if state.supervised
-        else HealthLine(
+        _line_of_what_is_needed(
             translate("console-supervisor"),
+            translate("console-supervisor-there") if state.supervised else "",
             translate("console-supervisor-none"),
-            is_ok=False,
-            remedy=translate("console-supervisor-remedy"),
+            translate("console-supervisor-remedy"),
         ),
     )
+
+
+def _line_of_what_is_needed(name: str, there: str, missing: str, remedy: str) -> HealthLine:
+    """Say what a part is like that is ``there``, or that it is missing and what to do."""
+    return HealthLine(name, there) if there else HealthLine(name, missing, is_ok=False, remedy=remedy)
 
 
 def booth_lines(state: HealthInputs, study: StudyConfig, catalogue: Catalogue) -> tuple[HealthLine, ...]:
