@@ -24,7 +24,7 @@ PageFrame {
     readonly property bool signed: debrief.lines.length > 0 && debrief.lines[0].sign !== "" && fits(Theme.small, Theme.small, 0.5)
     // Beside the helper, lines with drawings stand two by two where each has three short lines at most.
     readonly property bool pairable: accompanied && width > height && read.length > 2 && read.length % 2 === 0 && read[0].sign !== ""
-        && read.every(line => broken(line.text, Theme.size(32), (column - 2 * Theme.gap) / 2 - Theme.size(80) - Theme.gap) <= 3)
+        && measures.every(widths => broken(widths, Theme.size(32), (column - 2 * Theme.gap) / 2 - Theme.size(80) - Theme.gap) <= 3)
     readonly property bool paired: signed && pairable
     readonly property real size: paired ? Theme.size(32) : signed ? (width < height ? [38, 36, 34, 32, 30, 29] : [32, 30, 29]).map(Theme.size).find(size => fits(size, noted, apart, most > 340 ? most : 290)) ?? Theme.small
         : room < 720 * Theme.unit ? Theme.small : Theme.reading
@@ -54,10 +54,10 @@ PageFrame {
     function estimate(size: real, cardSize: real, apart: real, most = 290): real {
         // Small letters are set on whole pixels, which makes them wider.
         const wide = (column - 2.5 * size - Theme.gap) * (Theme.unit < 0.9 ? 0.95 : 0.98)
-        const tall = pairable ? read.length / 2 * rowHigh : read.reduce((sum, line) => sum + Math.max(2.5 * size, broken(line.text, size, wide) * (leading + 0.06) * Math.ceil(1.37 * size)), 0)
+        const tall = pairable ? read.length / 2 * rowHigh : measures.reduce((sum, widths) => sum + Math.max(2.5 * size, broken(widths, size, wide) * (leading + 0.06) * Math.ceil(1.37 * size)), 0)
         const beside = (column - most * Theme.unit - (width < height ? 4 : 2.5) * Theme.gap) * 0.95
-        const noted = [debrief.scanning, width < height ? words["debrief-code"] : "", debrief.withdrawing, debrief.returning, debrief.questions].reduce((sum, text) => sum + lines(text, cardSize, beside), 0)
-        const heading = lines(kept, 1.08 * Theme.body, width < height ? column - 4 * Theme.gap : beside) * Math.ceil(1.37 * Theme.body)
+        const noted = notedMeasures.reduce((sum, widths) => sum + lines(widths, cardSize, beside), 0)
+        const heading = lines(keptMeasures, 1.08 * Theme.body, width < height ? column - 4 * Theme.gap : beside) * Math.ceil(1.37 * Theme.body)
         const above = width < height ? heading + 0.6 * Theme.gap : 0
         const card = (width < height ? 0 : heading) + 1.38 * Theme.size(72) + noted * Math.ceil(1.37 * cardSize) + (width < height ? 4.1 : cardSize > Theme.small ? 1.8 : 2.6) * Theme.gap
         return tall + ((pairable ? read.length / 2 : read.length) + 1) * apart * Theme.gap + above + Math.max((width < height ? Math.max(362, most + 72) : cardSize > Theme.small ? 318 : 266) * Theme.unit, card)
@@ -66,15 +66,23 @@ PageFrame {
     // What is added to that where an upright page has room for it.
     readonly property real further: !signed || width > height ? 0
         : Math.max(0, Math.min(Theme.gap, (0.92 * room - estimate(size, noted, apart, most > 340 ? most : 290)) / read.length))
+    // The widths of texts in letters of 100 pixels, part by part, measured once for all sizes that are tried.
+    readonly property bool upright: width < height
+    readonly property var measures: read.map(line => measured(line.text, boldLetters))
+    readonly property var notedMeasures: [debrief.scanning, upright ? words["debrief-code"] : "", debrief.withdrawing, debrief.returning, debrief.questions].map(text => measured(text, letters))
+    readonly property var keptMeasures: measured(kept, letters)
+    function measured(text: string, first: FontMetrics): var {
+        return text.split("\n").map((part, index) => (index === 0 ? first : letters).advanceWidth(part))
+    }
     // The lines of a point, whose heading is bold; lines that break at words are not full.
-    function broken(text: string, size: real, room: real): int {
-        return text.split("\n").reduce((sum, part, index) => {
-            const share = (index === 0 ? boldLetters : letters).advanceWidth(part) * size / 100 / room
+    function broken(widths: var, size: real, room: real): int {
+        return widths.reduce((sum, wide) => {
+            const share = wide * size / 100 / room
             return sum + Math.ceil(share > 1 ? 1.06 * share : share)
         }, 0)
     }
-    function lines(text: string, size: real, room: real): int {
-        return text.split("\n").reduce((sum, part) => sum + Math.ceil(letters.advanceWidth(part) * size / 100 / room), 0)
+    function lines(widths: var, size: real, room: real): int {
+        return widths.reduce((sum, wide) => sum + Math.ceil(wide * size / 100 / room), 0)
     }
 
     aside: sayable(debrief.lines)
