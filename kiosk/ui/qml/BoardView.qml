@@ -391,7 +391,8 @@ FocusScope {
             readonly property bool marked: (view.markRow === row || view.markRow < 0)
                                            && (view.markColumn === column || view.markColumn < 0)
                                            && view.markRow + view.markColumn > -2
-            // A hint means this very card: its frame takes a little of its room where cards are close together.
+            // A hint means this very card. The mark takes a little of a card's room where cards are close together, and
+            // more of this one's.
             readonly property bool meant: view.markRow === row && view.markColumn === column
             // A tap would change nothing: two cards are open, a sentence is said, or this one is up.
             readonly property bool refuses: !view.open || up
@@ -500,7 +501,7 @@ FocusScope {
                 // Closed cards step back while a tap would not count, unless they are meant.
                 opacity: view.speaking && !place.up && !place.marked ? Theme.held : 1
                 Behavior on opacity { NumberAnimation { duration: Theme.motion } }
-                scale: (tap.pressed ? 0.95 : 1) * (place.meant ? view.within(view.cell - 28 * Theme.unit, 1) : 1) * (1 + 0.07 * lift) * (1 - 0.14 * place.rest + (view.within(view.framed - 2 * view.ring, 1.01) - 0.86) * place.large) * (1 + 0.16 * place.forward) * (1 + 0.09 * place.cheer)
+                scale: (tap.pressed ? 0.95 : 1) * (place.marked ? view.within(view.cell - (place.meant ? 28 : 18) * Theme.unit, 1) : 1) * (1 + 0.07 * lift) * (1 - 0.14 * place.rest + (view.within(view.framed - 2 * view.ring, 1.01) - 0.86) * place.large) * (1 + 0.16 * place.forward) * (1 + 0.09 * place.cheer)
             }
             // These two are no pair; in a while they close again.
             Rectangle {
