@@ -36,7 +36,7 @@ PageFrame {
     }
     // How many lines a question has at this size, in so much width.
     function lines(text: string, size: real, wide: real): int {
-        const room = 97 * wide / size, gap = letters.advanceWidth(" ")
+        const room = 98 * wide / size, gap = letters.advanceWidth(" ")
         let count = 1, at = 0
         for (const word of text.split(" ")) {
             const long = letters.advanceWidth(word)
@@ -65,7 +65,7 @@ PageFrame {
             [92, 30, 36, 2], [92, 30, 32, 2], [92, 30, 32, 3], [84, 28, 36, 2], [84, 28, 32, 2], [84, 28, 29, 2], [84, 28, 29, 3]]) {
             const point = dot * Theme.unit, end = Theme.size(word), text = Theme.size(letter)
             const left = folded("left", end), right = folded("right", end)
-            const scaleWidth = left + right + 2 * Theme.gap + (points + 0.3 * (points - 1)) * point
+            const scaleWidth = left + right + 2 * Theme.gap + (points + 0.27 * (points - 1)) * point
             const textWidth = inner - scaleWidth - 2 * Theme.gap
             const counts = form.items.map(item => lines(item.shown, text, textWidth))
             const height = Math.max(point, 1.37 * text * Math.max(2, ...counts))
@@ -119,32 +119,50 @@ PageFrame {
     readonly property bool calm: accompanied && !tight && Theme.textSize <= 1.15 && form.items.length <= 3
         && form.items.every(item => ["integer", "single", "text"].includes(item.kind) && !item.exempts)
 
-    // How large the options of such a page are where all stand in two columns, as wide; 0 where they do not fit so.
-    readonly property real paired: !calm || upright || alone || mirrored || pairedHeight() > room ? 0
-        : pairSizes.find(size => pairs(size) && threes(size)) ?? pairSizes.find(size => pairs(size)) ?? 0
-    readonly property list<real> pairSizes: [34, 32, 31, 30, 29].map(Theme.size)
+    // How large the options of such a page are where all stand in columns, and how high; null where they do not fit so.
+    // Five stand in thirds where they can.
+    readonly property var tiles: {
+        if (!calm || upright || alone || mirrored)
+            return null
+        for (const thirds of [true, false])
+            for (const size of [34, 33, 32, 31, 30, 29].map(Theme.size))
+                for (const height of [88, 76])
+                    if (form.items.every(item => tiled(item, thirds, size)) && tiledHeight(thirds, height) <= room)
+                        return {size, height: height * Theme.unit}
+        return null
+    }
+    readonly property real asking: Theme.size(36)
     FontMetrics {
         id: thin
         font.pixelSize: 100
     }
-    function pairs(size: real): bool {
-        const wide = (column - 2.4 * Theme.gap - 18 * Theme.unit) / 2 - 86 * Theme.unit
-        return form.items.every(item => item.kind === "integer"
-            || item.kind === "single" && item.options.every(option => thin.advanceWidth(option.text) * size / 100 <= wide))
+    function odd(item: var): bool {
+        return item.kind === "single" && item.options.length > 4 && item.options.length % 2 === 1
     }
-    // Whether three options can begin every list of an odd number.
-    function threes(size: real): bool {
-        const wide = (column - 2.4 * Theme.gap - 36 * Theme.unit) / 3 - 86 * Theme.unit
-        return form.items.every(item => (item.options?.length ?? 0) % 2 === 0 || item.options.length < 5
-            || item.options.slice(0, 3).every(option => thin.advanceWidth(option.text) * size / 100 <= wide))
+    // Whether all of its options have room in halves of the card, or else three of them in thirds, and in each row after
+    // that one in a third and one in two.
+    function tiled(item: var, thirds: bool, size: real): bool {
+        if (item.kind === "integer")
+            return true
+        if (item.kind !== "single")
+            return false
+        const around = 79 * Theme.unit, gap = 12 * Theme.unit
+        const half = (inner - gap) / 2 - around, third = (inner - 2 * gap) / 3 - around, two = 2 * third + gap + around
+        // Small letters are set on whole pixels, and take a little more.
+        const sizes = item.options.map(option => 1.01 * thin.advanceWidth(option.text) * size / 100)
+        if (!thirds || !odd(item))
+            return sizes.every(wide => wide <= half)
+        const first = sizes.filter((_, at) => at > 2 && at % 2 === 1), second = sizes.filter((_, at) => at > 2 && at % 2 === 0)
+        const within = (some, most) => some.every(wide => wide <= most)
+        return within(sizes.slice(0, 3), third) && (within(first, two) && within(second, third) || within(first, third) && within(second, two))
     }
-    function pairedHeight(): real {
+    function tiledHeight(thirds: bool, height: real): real {
         let tall = 0
         for (const item of form.items) {
-            const lines = Math.ceil(letters.advanceWidth(item.text) * Theme.body / 100 / (column - 2.4 * Theme.gap))
-            const rows = Math.ceil((item.options?.length ?? 0) / 2)
+            const lines = Math.ceil(letters.advanceWidth(item.text) * asking / 100 / inner)
+            const rows = Math.ceil(((item.options?.length ?? 0) - (thirds && odd(item) ? 1 : 0)) / 2)
             tall += form.hidden.includes(item.id) ? 0 : item.kind === "integer" ? 132 * Theme.unit
-                : lines * 1.37 * Theme.body + (48 + 88 * rows) * Theme.unit
+                : lines * 1.37 * asking + (48 + (height + 12) * rows) * Theme.unit
         }
         return tall
     }
@@ -328,7 +346,7 @@ PageFrame {
                 let sum = 0
                 for (let i = 0; i < boxes.count; i++) {
                     const box = boxes.itemAt(i) as FormItem
-                    sum += box?.visible ? box.plain + (view.questionHeight > 0 ? 24 : 30) * Theme.unit : 0
+                    sum += box?.visible ? box.plain + (view.questionHeight > 0 || view.tiles !== null ? 24 : 30) * Theme.unit : 0
                 }
                 return sum
             }
@@ -366,7 +384,9 @@ PageFrame {
                     dense: view.dense
                     tight: view.tight
                     calm: view.calm
-                    paired: view.paired
+                    paired: view.tiles?.size ?? 0
+                    pairHeight: view.tiles?.height ?? 0
+                    asking: view.asking
                     loosened: pane.loosened
                     large: view.width < view.height && view.form.items.length < 5
                     beside: view.own || view.rowText > 0 && view.scales(modelData)

@@ -153,8 +153,8 @@ Flow {
             width: list.stacked ? list.width : list.flowing ? (list.gridded.length > 0 ? list.gridded : list.filled)[index] : list.tiled ? list.tile : Math.min(implicitWidth, list.width)
             words: modelData.text
             font.pixelSize: list.paired > 0 ? list.paired : list.alone ? Theme.body : list.large ? Theme.size(34) : Theme.reading
-            leftPadding: (list.narrow ? 14 : list.even ? 20 : 22) * Theme.unit
-            rightPadding: (list.narrow ? 16 : list.even ? 16 : 30) * Theme.unit
+            leftPadding: (list.narrow ? 14 : list.paired > 0 ? 18 : list.even ? 20 : 22) * Theme.unit
+            rightPadding: (list.narrow ? 16 : list.paired > 0 ? 9 : list.even ? 16 : 30) * Theme.unit
             verticalPadding: (list.alone ? 16 : list.narrow ? 3 : 10) * Theme.unit
             spacing: (list.narrow ? 10 : list.even ? 12 : 16) * Theme.unit
             scale: down ? 0.97 : 1

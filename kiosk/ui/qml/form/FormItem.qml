@@ -42,8 +42,11 @@ Item {
     readonly property var answer: form.answers[item.id]
     readonly property bool refused: form.refused.includes(item.id)
     readonly property bool missed: form.missing.includes(item.id) || refused
-    // How large the options of its page are in two columns; 0 where they do not stand so.
+    // How large the options of its page are in columns, and how high; 0 where they do not stand so.
     property real paired: 0
+    property real pairHeight: 0
+    // How large the questions of such a page are.
+    property real asking: 0
     // Whether there is room enough on its page.
     property bool calm: false
     // How much of what can be added to the distances of this page is added, from 0 to 1.
@@ -119,6 +122,8 @@ Item {
             width: parent.width
             // How high the question is, or the place that is kept for it.
             readonly property real asks: Math.max(told.height, box.questionHeight)
+            // What a shorter question leaves of it: as much goes above it, below it and below its scale.
+            readonly property real spared: (asks - told.height) / 3
             // Where the middle of a row is: that of the points, and not of words above them.
             readonly property real scaled: (way.item as PointScale)?.size ?? (way.item as SliderScale)?.rail ?? 0
             // How high the words are that head the points of a table.
@@ -131,8 +136,7 @@ Item {
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                // Above a scale, first lines stand at one place on all cards.
-                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.questionHeight > 0 ? content.spacing / 4 : 0
+                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.questionHeight > 0 ? content.spacing / 4 + asked.spared : 0
                 width: box.beside ? box.textWidth : box.inline ? asked.width - 470 * Theme.unit : asked.width
                 spacing: box.inline ? 0 : content.spacing
                 Balanced {
@@ -143,11 +147,30 @@ Item {
                     font {
                         pixelSize: box.item.kind === "page" ? Theme.size(36) : box.alone ? Theme.heading
                             : box.beside || (box.item.kind === "slider" && box.rowText > 0) ? box.rowText
-                            : box.dense ? Theme.reading : box.airy ? Theme.size(38) : Theme.body
+                            : box.paired > 0 ? box.asking : box.dense ? Theme.reading : box.airy ? Theme.size(38) : Theme.body
                         bold: box.item.kind !== "page"
                     }
                     lineHeight: box.item.kind === "page" ? 1.15 : 1
                     horizontalAlignment: Text.AlignLeft
+                    // Where the sign stands: after the last line, if there is room. Set, not bound: lines are laid out
+                    // while bindings are worked out.
+                    property point end
+                    property bool roomy: false
+                    readonly property real sign: 1.3 * font.pixelSize
+                    onLineLaidOut: line => {
+                        if (box.item.kind !== "slider" || !line.isLast)
+                            return
+                        const at = line.implicitWidth + 0.5 * Theme.gap
+                        roomy = at + sign <= width
+                        end = Qt.point(Theme.across(at, sign, width), line.y + (line.height - sign) / 2)
+                    }
+                    // At the end of the words that say so, and not at the line: there it would favour an answer.
+                    TouchSign {
+                        x: question.end.x
+                        y: question.end.y
+                        size: question.sign
+                        visible: question.roomy
+                    }
                 }
                 // What a number may be, below the question where the number stands beside that.
                 PlainText {
@@ -174,7 +197,7 @@ Item {
                 id: way
                 readonly property real room: box.beside ? box.scaleWidth : asked.width
                 x: Theme.across(box.beside ? asked.width - room : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.flank ? asked.middle - box.flank.point / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : asked.asks + content.spacing
+                y: box.flank ? asked.middle - box.flank.point / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : asked.asks + content.spacing - asked.spared
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
@@ -296,8 +319,8 @@ Item {
             dense: box.form.items.length > 3
             large: box.airy
             paired: box.paired
-            gridGap: (box.paired > 0 ? 14 : box.calm ? 18 : 12) * Theme.unit
-            tall: (box.tight || (Theme.textSize > 1.15 && !box.large) || box.form.items.length > 3 ? 62 : box.airy ? 84 : 76) * Theme.unit
+            gridGap: (box.paired > 0 ? 12 : box.calm ? 18 : 12) * Theme.unit
+            tall: box.paired > 0 ? box.pairHeight : (box.tight || (Theme.textSize > 1.15 && !box.large) || box.form.items.length > 3 ? 62 : box.airy ? 84 : 76) * Theme.unit
             onPicked: option => several ? box.form.toggle(box.item.id, option) : box.form.choose(box.item.id, option)
         }
     }

@@ -48,8 +48,9 @@ Item {
     PlainText {
         id: lower
         y: scale.below ? slider.height + scale.apart : (scale.height - height) / 2
-        x: Theme.across(0, width, scale.width)
-        width: scale.below ? slider.width / 2 - Theme.gap : scale.leftRoom - Theme.gap
+        // Below the ends of the line, and not at the edge of what is around it.
+        x: Theme.across(scale.below ? groove.inset : 0, width, scale.width)
+        width: scale.below ? slider.width / 2 - Theme.gap - groove.inset : scale.leftRoom - Theme.gap
         text: scale.leftEnd
         horizontalAlignment: scale.flank ? Text.AlignRight : Text.AlignLeft
         lineHeight: scale.flank ? 0.9 : 1
@@ -60,7 +61,7 @@ Item {
     PlainText {
         id: upper
         y: scale.below ? lower.y : (scale.height - height) / 2
-        x: Theme.across(scale.below ? slider.width - width : scale.leftRoom + slider.width + scale.rightRoom - width, width, scale.width)
+        x: Theme.across(scale.below ? slider.width - groove.inset - width : scale.leftRoom + slider.width + scale.rightRoom - width, width, scale.width)
         width: scale.below ? lower.width : scale.rightRoom - Theme.gap
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
