@@ -44,7 +44,7 @@ Rectangle {
     readonly property real keyHeight: (numbers ? (flat ? 130 : roomy ? 70 : 68) : 60) * Theme.unit
 
     // Whether they point at their field, at one side of it.
-    readonly property bool points: numbers && !flat && (x >= parent.width || x < 0) && aim > y + radius + 26 * Theme.unit && aim < y + height - radius - 30 * Theme.unit
+    readonly property bool points: numbers && !flat && (x >= parent.width || x < 0) && aim > y + radius + 24 * Theme.unit && aim < y + height - radius - 24 * Theme.unit
 
     // How wide so many keys in a row are in this room, within these units.
     function fitting(wide: real, many: int, least: real, most: real): real {
@@ -119,7 +119,7 @@ Rectangle {
         id: tail
         visible: keyboard.points
         width: Math.max(30 * Theme.unit, Math.min(96 * Theme.unit, keyboard.away))
-        height: 60 * Theme.unit
+        height: 48 * Theme.unit
         x: keyboard.x < 0 ? keyboard.width : -width
         y: keyboard.aim - keyboard.y - height / 2
         rotation: keyboard.x < 0 ? 180 : 0
