@@ -144,24 +144,39 @@ def item(kind: str, number: int, script: Script) -> Item:
     return made
 
 
-def pages() -> Iterator[tuple[str, str, Filling]]:
-    """Every page, with the screen that it is on and how that is filled: items of one kind, of several, and texts."""
+@dataclass(frozen=True)
+class Sheet:
+    """A page to lay out: its name, the screen that it is on, and how that is filled."""
+
+    name: str
+    screen: str
+    fill: Filling
+    block: int
+    """Pages of one block have the same script and number of items, and are tried in the same sizes.
+
+    A letter of a new size takes long to draw up, so a size of its own for every page would take a quarter longer.
+    """
+
+
+def pages() -> Iterator[Sheet]:
+    """Every page: items of one kind, of several, and texts."""
     asked = [kind for kind in KINDS if kind != "page"]
     alike = [*asked, "likert, long ends"]
-    for (script, texts), count in product(SCRIPTS.items(), range(1, MOST_ITEMS + 1)):
+    blocks = product(SCRIPTS.items(), range(1, MOST_ITEMS + 1))
+    for block, ((script, texts), count) in enumerate(blocks):
         sets = {kind: (kind,) * count for kind in alike}
         sets |= {"several kinds": tuple(asked[:count]), "several other kinds": tuple(reversed(asked))[:count]}
         for name, kinds in sets.items():
             items = tuple(item(kind, number, texts) for number, kind in enumerate(kinds))
-            yield f"{count} {name}, {script}", "form", partial(_ask, items)
+            yield Sheet(f"{count} {name}, {script}", "form", partial(_ask, items), block)
         page = Page(title=texts.short, paragraphs=tuple([texts.question * 3] * count))
-        yield f"{count} paragraphs to read, {script}", "about", partial(_tell, page)
-        yield f"{count} paragraphs of a debriefing, {script}", "debrief", partial(_debrief, page)
+        yield Sheet(f"{count} paragraphs to read, {script}", "about", partial(_tell, page), block)
+        yield Sheet(f"{count} paragraphs of a debriefing, {script}", "debrief", partial(_debrief, page), block)
         purposes = [{"id": f"purpose{n}", "text": f"{texts.question} {texts.long}"} for n in range(count)]
         consent = ConsentPage.model_validate({**page.model_dump(), "purposes": purposes})
-        yield f"{count} purposes to agree to, {script}", "consent", partial(_ask_consent, consent)
-    for script, texts in SCRIPTS.items():
-        yield f"a page of text, {script}", "form", partial(_ask, (item("page", 0, texts),))
+        yield Sheet(f"{count} purposes to agree to, {script}", "consent", partial(_ask_consent, consent), block)
+    for block, (script, texts) in enumerate(SCRIPTS.items()):
+        yield Sheet(f"a page of text, {script}", "form", partial(_ask, (item("page", 0, texts),)), block)
 
 
 def _ask(items: tuple[Item, ...], screens: ScreenSet) -> None:
@@ -273,17 +288,19 @@ def main(arguments: list[str]) -> int:
     bench, every_page, laid_out, most = Bench(), list(pages()), 0, 0
     # One window after another: a change of the window lays out much that does not belong to the page.
     for place, window in enumerate(WINDOWS):
-        for number, (page, screen, fill) in enumerate(every_page):
+        for page in every_page:
             step = options.every or 1
-            chosen = TEXT_SIZES[number % step :: step] if not options.every or number % len(WINDOWS) == place else []
-            names = {name_of(page, window, size): size for size in TEXT_SIZES}
+            # Each script and each number of items comes into every window.
+            here = (page.block + page.block // MOST_ITEMS) % len(WINDOWS) == place
+            chosen = TEXT_SIZES[page.block % step :: step] if here or not options.every else []
+            names = {name_of(page.name, window, size): size for size in TEXT_SIZES}
             wanted = {
                 told: size
                 for told, size in names.items()
                 if (size in chosen and options.only in told) or any(also in told for also in options.also)
             }
             if wanted:
-                bench.show(screen, fill, *next(iter(wanted.items())), window)
+                bench.show(page.screen, page.fill, *next(iter(wanted.items())), window)
             for told, text_size in wanted.items():
                 most = max(most, bench.lay_out(told, text_size, window))
             laid_out += len(wanted)

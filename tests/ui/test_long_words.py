@@ -23,7 +23,7 @@ from tests.ui.headless import open_window
 from tests.ui.settling import pages
 from tests.ui.test_every_language_fits import SIZES, assert_all_can_be_read, moments, resize, show_alone, texts
 
-PAGES = [page for page in pages() if page[0].endswith("no place to break") and page[0][0] in "a135"]
+PAGES = [page for page in pages() if page.name.endswith("no place to break") and page.name[0] in "a135"]
 
 
 class _Joined(Transformer):
@@ -79,11 +79,11 @@ def window(study: StudyConfig, qapp: QGuiApplication) -> Iterator[Window]:  # no
 def test_long_words_are_broken_and_cover_nothing(window: Window, width: int, height: int) -> None:
     resize(window, width, height)
     window.screens.avatar.say("w" * 100)
-    for page, screen, fill in PAGES:
-        fill(window.screens)
-        show_alone(window, screen)
+    for page in PAGES:
+        page.fill(window.screens)
+        show_alone(window, page.screen)
         lay_out(window.shown)
-        assert_all_can_be_read(window.shown, page)
+        assert_all_can_be_read(window.shown, page.name)
 
 
 @pytest.mark.parametrize(("width", "height"), SIZES)
