@@ -155,9 +155,12 @@ Window {
 
         AttractView {
             id: attractView
-            anchors.fill: parent
             // Its words may stand a little lower, beside the room above the helper's ears.
-            anchors.bottomMargin: !root.wide && root.avatar.present && !helper.says && root.texts <= 1.15 ? -0.045 * root.room : 0
+            readonly property real further: !root.wide && root.avatar.present && !helper.says && root.texts <= 1.15 ? 0.045 * root.room : 0
+            // As a page, it keeps its size while it is not seen.
+            Binding on width { when: attractView.visible; value: stage.width; restoreMode: Binding.RestoreNone }
+            Binding on height { when: attractView.visible; value: stage.height + attractView.further; restoreMode: Binding.RestoreNone }
+            Binding on accompanied { when: attractView.visible; value: root.accompanied; restoreMode: Binding.RestoreNone }
             visible: root.kiosk.screen === "attract"
             focus: visible && root.kiosk.bare
             attract: root.attract
@@ -165,7 +168,6 @@ Window {
             cardShadow: root.cardShadow
             labName: root.labName
             labLogo: root.labLogo
-            accompanied: root.accompanied
             onVisibleChanged: if (visible) helper.stopNoticing()
             onLooked: place => helper.notice(helper.mapFromItem(attractView, place.x, place.y))
         }
@@ -220,10 +222,11 @@ Window {
                     id: formView
                     x: stage.x
                     y: stage.y
-                    width: stage.width
-                    height: stage.height
+                    // It takes another size before it is filled, but not while a robot comes or goes in a game.
+                    Binding on width { when: !boardPage.visible; value: stage.width; restoreMode: Binding.RestoreNone }
+                    Binding on height { when: !boardPage.visible; value: stage.height; restoreMode: Binding.RestoreNone }
+                    Binding on accompanied { when: !boardPage.visible; value: root.accompanied && !root.avatar.away; restoreMode: Binding.RestoreNone }
                     focus: true
-                    accompanied: root.accompanied && !root.avatar.away
                     aligned: root.accompanied
                     before: stage.x
                     form: root.form
