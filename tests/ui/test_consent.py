@@ -95,11 +95,14 @@ def test_the_way_to_agree_stands_back_until_the_required_boxes_are_ticked_and_ca
     assert not booth.item("decline").property("waits")
     assert booth.item("consent-waits").property("text") == "To take part, tick the 2 boxes that are needed"
     height = booth.item("consent-waits").height()
+    assert booth.item("agree").property("note") == "2 boxes to go"
     booth.app.screens.consent.show_ticks(REQUIRED - {"store"})
     assert booth.item("consent-waits").property("text") == "To take part, tick the box that is needed"
+    assert booth.item("agree").property("note") == "One box to go"
     booth.click("agree")
     assert done == ["agreed"]
     booth.app.screens.consent.show_ticks(REQUIRED)
+    assert booth.item("agree").property("note") == ""
     assert not booth.item("agree").property("quiet")
     assert (booth.item("consent-waits").property("text"), booth.item("consent-waits").height()) == (
         "That is all that is needed.",

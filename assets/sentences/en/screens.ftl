@@ -42,6 +42,12 @@ consent-waits =
         [one] To take part, tick the box that is needed
        *[other] To take part, tick the { $number } boxes that are needed
     }
+# Within the way on, as long as boxes that are needed have no tick.
+consent-to-go =
+    { $number ->
+        [one] One box to go
+       *[other] { $number } boxes to go
+    }
 # In its place, once all of them have one.
 consent-ready = That is all that is needed.
 consent-agree = I take part

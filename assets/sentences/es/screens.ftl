@@ -43,6 +43,12 @@ consent-waits =
         [one] Para participar, marca la casilla necesaria
        *[other] Para participar, marca las { $number } casillas necesarias
     }
+# Within the way on, as long as boxes that are needed have no tick.
+consent-to-go =
+    { $number ->
+        [one] Falta una casilla
+       *[other] Faltan { $number } casillas
+    }
 # In its place, once all of them have one.
 consent-ready = Eso es todo lo que hace falta.
 consent-agree = Participo

@@ -43,6 +43,12 @@ consent-waits =
         [one] Per partecipare, spunta la casella necessaria
        *[other] Per partecipare, spunta le { $number } caselle necessarie
     }
+# Within the way on, as long as boxes that are needed have no tick.
+consent-to-go =
+    { $number ->
+        [one] Manca una casella
+       *[other] Mancano { $number } caselle
+    }
 # In its place, once all of them have one.
 consent-ready = È tutto ciò che serve.
 consent-agree = Partecipo

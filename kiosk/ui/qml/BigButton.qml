@@ -13,6 +13,8 @@ Button {
     property bool quiet: false
     // A quiet one that is the way on, once what the page asks for is done: paler than the others.
     property bool waits: false
+    // A line below the words, such as why it waits; it makes the button no higher.
+    property string note: ""
     // How round it is at most.
     property real corner: Infinity
     property real letters: Theme.onButtons
@@ -37,6 +39,7 @@ Button {
     Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
 
     contentItem: Text {
+        transform: Translate { y: -below.height / 2 }
         textFormat: Text.PlainText
         text: button.words
         font: button.font
@@ -45,6 +48,22 @@ Button {
         verticalAlignment: Text.AlignVCenter
         // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
         wrapMode: button.width < button.implicitWidth ? Text.Wrap : Text.NoWrap
+    }
+    Text {
+        id: below
+        objectName: "note"
+        x: (parent.width - width) / 2
+        width: parent.width - 2 * Theme.gap
+        y: (parent.height + Math.ceil(1.4 * button.letters) + 2 * Theme.unit - height) / 2
+        height: button.note === "" ? 0 : Math.ceil(1.37 * Theme.small)
+        textFormat: Text.PlainText
+        text: button.note
+        font.pixelSize: Theme.small
+        fontSizeMode: Text.HorizontalFit
+        minimumPixelSize: Theme.size(24)
+        horizontalAlignment: Text.AlignHCenter
+        color: button.waits ? Theme.faintInk : button.quiet ? Theme.sea : Theme.white
+        Accessible.ignored: true
     }
     background: Rectangle {
         id: ground

@@ -24,6 +24,7 @@ PageFrame {
     way.waits: !consent.complete
     way.even: true
     way.reason: consent.waiting
+    way.note: consent.toGo
     way.otherName: "decline"
     onWent: consent.agree()
     onTurnedDown: consent.decline()
@@ -188,6 +189,7 @@ PageFrame {
                             broad: large && view.width < view.height
                             roomy: view.short && Theme.textSize <= 1.15
                             words: purpose.modelData.text
+                            needed: purpose.modelData.required
                             lighter: !purpose.modelData.required && boxes.needs
                             on: view.consent.ticks.includes(purpose.modelData.id)
                             note: view.words[purpose.modelData.required ? "consent-required" : "consent-optional"]

@@ -22,18 +22,39 @@ PageFrame {
     // Lines with drawings stand below each other, as large as the page has room for above the card; on a page that has too
     // little for that, without the drawings.
     readonly property bool signed: debrief.lines.length > 0 && debrief.lines[0].sign !== "" && fits(Theme.small, Theme.small, 0.5)
-    // Beside the helper, lines with drawings stand two by two where each has three short lines at most.
-    readonly property bool pairable: accompanied && width > height && read.length > 2 && read.length % 2 === 0 && read[0].sign !== ""
-        && measures.every(widths => broken(widths, Theme.size(32), (column - 2 * Theme.gap) / 2 - Theme.size(80) - Theme.gap) <= 3)
+    // Beside the helper, the first line with a drawing has all of the width, and those after it stand two by two in the order
+    // in which they are read, which leaves all of the width to a last one: as large as there is room for that.
+    readonly property var rows: inRows(read)
+    readonly property var measuredRows: inRows(measures)
+    function inRows(all: var): var {
+        return all.reduce((rows, each, index) => {
+            if (index % 2 === 1)
+                rows.push([])
+            rows[rows.length - 1].push(each)
+            return rows
+        }, [[]])
+    }
+    readonly property real pairedSize: !accompanied || width <= height || read.length < 3 || read[0].sign === "" ? 0
+        : [35, 34, 33, 32].map(Theme.size).find(size => measuredRows.every(row => tallest(row, size) <= 3)
+            && stacked(size) + (rows.length - 1) * 1.1 * Theme.gap + 385 * Theme.unit <= room) ?? 0
+    readonly property bool pairable: pairedSize > 0
+    // How many lines has the one of this row that has most of them, and how high all rows are.
+    function tallest(row: var, size: real): int {
+        const width = row.length > 1 ? (column - 2 * Theme.gap) / 2 : column
+        return Math.max(...row.map(widths => broken(widths, size, width - 2.5 * size - Theme.gap)))
+    }
+    function stacked(size: real): real {
+        return measuredRows.reduce((sum, row) => sum + Math.max(2.5 * size, tallest(row, size) * (leading + 0.06) * Math.ceil(1.37 * size)), 0)
+    }
     readonly property bool paired: signed && pairable
-    readonly property real size: paired ? Theme.size(32) : signed ? (width < height ? [38, 36, 34, 32, 30, 29] : [32, 30, 29]).map(Theme.size).find(size => fits(size, noted, apart, most > 340 ? most : 290)) ?? Theme.small
+    readonly property real size: paired ? pairedSize : signed ? (width < height ? [38, 36, 34, 32, 30, 29] : [32, 30, 29]).map(Theme.size).find(size => fits(size, noted, apart, most > 340 ? most : 290)) ?? Theme.small
         : room < 720 * Theme.unit ? Theme.small : Theme.reading
     // What stands on the card is read from it at home, in a photograph.
     readonly property real noted: [Theme.body, Theme.reading].find(size => fits(Theme.size(32), size, width < height ? 0.5 : 0.4)) ?? Theme.small
     // How far what stands on the card is from its upper and lower edge.
-    readonly property real pad: (signed && width < height ? 1.5 : !signed ? 0.75 : fits(size, noted, apart, 290, 52) ? 1.2 : noted > Theme.small ? 0.5 : 0.75) * Theme.gap
+    readonly property real pad: (paired ? 0.75 : signed && width < height ? 1.5 : !signed ? 0.75 : fits(size, noted, apart, 290, 52) ? 1.2 : noted > Theme.small ? 0.5 : 0.75) * Theme.gap
     // How far the lines are apart, in gaps: further where there is room for that.
-    readonly property real apart: (width < height ? [1] : accompanied ? [1.1, 0.9, 0.7] : []).find(apart => fits(Theme.size(32), noted, apart, 290, width < height ? 0 : 52))
+    readonly property real apart: paired ? 0.85 : (width < height ? [1] : accompanied ? [1.1, 0.9, 0.7] : []).find(apart => fits(Theme.size(32), noted, apart, 290, width < height ? 0 : 52))
         ?? (width > height && noted > Theme.small ? 0.4 : 0.5)
     // Beside a drawing, a heading and its text stand close, so that they are seen as one.
     readonly property real leading: 0.9
@@ -54,15 +75,14 @@ PageFrame {
     function estimate(size: real, cardSize: real, apart: real, most = 290): real {
         // Small letters are set on whole pixels, which makes them wider.
         const wide = (column - 2.5 * size - Theme.gap) * (Theme.unit < 0.9 ? 0.95 : 0.98)
-        const tall = pairable ? read.length / 2 * rowHigh : measures.reduce((sum, widths) => sum + Math.max(2.5 * size, broken(widths, size, wide) * (leading + 0.06) * Math.ceil(1.37 * size)), 0)
+        const tall = pairable ? stacked(pairedSize) : measures.reduce((sum, widths) => sum + Math.max(2.5 * size, broken(widths, size, wide) * (leading + 0.06) * Math.ceil(1.37 * size)), 0)
         const beside = (column - most * Theme.unit - (width < height ? 4 : 2.5) * Theme.gap) * 0.95
         const noted = notedMeasures.reduce((sum, widths) => sum + lines(widths, cardSize, beside), 0)
         const heading = lines(keptMeasures, 1.08 * Theme.body, width < height ? column - 4 * Theme.gap : beside) * Math.ceil(1.37 * Theme.body)
         const above = width < height ? heading + 0.6 * Theme.gap : 0
         const card = (width < height ? 0 : heading) + 1.38 * Theme.size(72) + noted * Math.ceil(1.37 * cardSize) + (width < height ? 4.1 : cardSize > Theme.small ? 1.8 : 2.6) * Theme.gap
-        return tall + ((pairable ? read.length / 2 : read.length) + 1) * apart * Theme.gap + above + Math.max((width < height ? Math.max(362, most + 72) : cardSize > Theme.small ? 318 : 266) * Theme.unit, card)
+        return tall + ((pairable ? rows.length : read.length) + 1) * apart * Theme.gap + above + Math.max((width < height ? Math.max(362, most + 72) : cardSize > Theme.small ? 318 : 266) * Theme.unit, card)
     }
-    readonly property real rowHigh: 3 * (leading + 0.06) * Math.ceil(1.37 * Theme.size(32))
     // What is added to that where an upright page has room for it.
     readonly property real further: !signed || width > height ? 0
         : Math.max(0, Math.min(Theme.gap, (0.92 * room - estimate(size, noted, apart, most > 340 ? most : 290)) / read.length))
@@ -127,17 +147,19 @@ PageFrame {
                 readonly property real half: (width - 2 * Theme.gap) / 2
                 width: pane.width
                 height: view.paired ? pairs.height : below.height
-                // Two by two, in the order in which they are read.
-                Grid {
+                Column {
                     id: pairs
-                    columns: 2
-                    columnSpacing: 2 * Theme.gap
-                    rowSpacing: view.apart * Theme.gap
+                    spacing: view.apart * Theme.gap
                     Repeater {
-                        model: view.paired ? texts.lines : []
-                        Point {
-                            width: texts.half
-                            least: view.rowHigh
+                        model: view.paired ? view.rows : []
+                        Row {
+                            id: row
+                            required property var modelData
+                            spacing: 2 * Theme.gap
+                            Repeater {
+                                model: row.modelData
+                                Point { width: row.modelData.length > 1 ? texts.half : texts.width }
+                            }
                         }
                     }
                 }

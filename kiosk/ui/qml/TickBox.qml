@@ -6,8 +6,9 @@ import "."
 Choosable {
     id: box
 
-    // What it is, in a word or two.
+    // What it is, in a word or two, and whether that is to be seen at once.
     property string note: ""
+    property bool needed: false
     // Whether it may be left out, beside others that are needed.
     property bool lighter: false
     // What stands there instead, once it is ticked.
@@ -48,7 +49,7 @@ Choosable {
         readonly property real noteWidth: Math.max(tag.implicitWidth, unticked.advanceWidth, ticked.advanceWidth)
         TextMetrics {
             id: unticked
-            font { family: tag.font.family; pixelSize: tag.font.pixelSize }
+            font { family: tag.font.family; pixelSize: tag.font.pixelSize; bold: box.needed }
             text: box.note
         }
         TextMetrics {
@@ -103,7 +104,7 @@ Choosable {
                 visible: text !== ""
                 text: box.warning || (parts.beside || parts.below ? "" : parts.note)
                 horizontalAlignment: LayoutMirroring.enabled ? Text.AlignLeft : undefined
-                font { pixelSize: Theme.small; bold: box.warning !== "" }
+                font { pixelSize: Theme.small; bold: box.warning !== "" || box.needed }
                 wrapMode: Text.Wrap
                 color: box.warning ? Theme.deepAmber : Theme.faintInk
             }
@@ -122,8 +123,8 @@ Choosable {
             y: parts.below ? told.y + told.height - height : (parts.height - height) / 2
             textFormat: Text.PlainText
             text: parts.note
-            font { pixelSize: box.large ? Theme.size(28) : Theme.small; bold: text !== box.note }
-            color: box.on ? Theme.sea : Theme.faintInk
+            font { pixelSize: box.large ? Theme.size(30) : Theme.small; bold: box.needed || text !== box.note }
+            color: box.on || box.needed ? Theme.sea : Theme.faintInk
             Accessible.ignored: true
         }
     }

@@ -15,6 +15,8 @@ FocusScope {
     property bool waits: false
     // Why it waits, for those who cannot see it.
     property string reason: ""
+    // The same in short, within it.
+    property string note: ""
     // Whether the ways on take what the way back leaves of the width, with gaps as wide between all of them.
     property bool fills: false
     // What the other way on says, such as a no; and what the two are called.
@@ -69,6 +71,7 @@ FocusScope {
         corner: ways.level ? no.topPadding + no.font.pixelSize : Infinity
         quiet: ways.quiet
         waits: ways.waits
+        note: ways.note
         Accessible.description: ways.reason
         words: ways.label
         focus: true

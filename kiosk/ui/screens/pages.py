@@ -419,6 +419,11 @@ class ConsentScreen(QObject):
         """Return what is still to be ticked to take part; empty if nothing is."""
         return self._catalogue.text("consent-waits", number=len(self.needed)) if self.needed else ""
 
+    @Property(str, notify=marked)
+    def toGo(self) -> str:  # noqa: N802 - QML's convention
+        """Return the same in two or three words, for the button itself."""
+        return self._catalogue.text("consent-to-go", number=len(self.needed)) if self.needed else ""
+
     @Slot(str, bool)
     def tick(self, purpose: str, ticked: bool) -> None:  # noqa: FBT001 - QML gives no names
         """Set a tick, or take it away."""

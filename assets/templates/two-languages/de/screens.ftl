@@ -42,6 +42,12 @@ consent-waits =
         [one] Kreuze das nötige Kästchen an, um teilzunehmen
        *[other] Kreuze die { $number } nötigen Kästchen an, um teilzunehmen
     }
+# Within the way on, as long as boxes that are needed have no tick.
+consent-to-go =
+    { $number ->
+        [one] Noch ein Kästchen
+       *[other] Noch { $number } Kästchen
+    }
 # In its place, once all of them have one.
 consent-ready = Mehr ist nicht nötig.
 consent-agree = Ich nehme teil
