@@ -6,12 +6,14 @@ What is shipped is asked, not listed: PyInstaller tells which files went in, and
 """
 
 import ast
+import os
 import platform
 import shutil
 import subprocess
 import sysconfig
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 from importlib.metadata import Distribution, distributions
 from pathlib import Path
 
@@ -105,8 +107,12 @@ def write(shipped: Iterable[Part], place: Path) -> None:
 
 def owners(files: set[Path]) -> Iterator[Distribution]:
     """Yield the distributions of this environment that any of these files belongs to."""
+    # Most folders have many files: each is followed to its place once.
+    place = cache(os.path.realpath)
+    wanted = {(str(file.parent), file.name) for file in files}
     for each in distributions():
-        if any(Path(str(each.locate_file(file))).resolve() in files for file in each.files or ()):
+        of_it = (os.path.split(each.locate_file(file)) for file in each.files or ())
+        if any((place(folder), name) in wanted for folder, name in of_it):
             yield each
 
 

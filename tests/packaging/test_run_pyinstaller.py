@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 import dis
 from itertools import pairwise
 from pathlib import Path
-from types import CodeType
+from types import CodeType, SimpleNamespace
 from typing import Any
 
 import pytest
@@ -39,3 +40,63 @@ def test_the_constants_before_an_import_say_what_is_imported_from_where() -> Non
         pair for pair, end in zip(pairwise(read), read[2:], strict=False) if end.opname == "IMPORT_NAME"
     ]
     assert (level.argval, names.argval) == (2, ("one", "two"))
+
+
+NESTED = """
+import a
+def f():
+    async def g():
+        async with x, y:
+            import b
+        async for z in w:
+            pass
+        else:
+            from . import c
+class C:
+    if (lambda: 0)():
+        from d import *
+    elif [e for e in f]:
+        import e.f as g
+    else:
+        import h
+try:
+    import i
+except (A if B else C):
+    import j
+else:
+    import k
+finally:
+    import l
+while x:
+    match y:
+        case 1:
+            from m import n, o
+try:
+    import p
+except* A:
+    import q
+"""
+
+
+def test_the_same_imports_are_found_in_the_statements_alone() -> None:
+    modulegraph = pytest.importorskip("PyInstaller.lib.modulegraph.modulegraph")
+    quick = type("Quick", (modulegraph._Visitor,), {"generic_visit": SCRIPT.visit_statements})
+    found = []
+    for visitor in (modulegraph._Visitor, quick):
+        module = SimpleNamespace(_deferred_imports=[])
+        visitor(None, module).visit(ast.parse(NESTED))
+        found.append([(star, what[0], what[2:], told) for star, what, told in module._deferred_imports])
+    assert len(found[0]) == 13
+    assert found[0] == found[1]
+
+
+def test_a_file_is_asked_for_its_libraries_once() -> None:
+    asked: list[tuple[str, Any]] = []
+
+    def look(*what: Any) -> int:
+        asked.append(what)
+        return len(asked)
+
+    get_imports = SCRIPT.remembered(look)
+    told = [get_imports("a"), get_imports("a", ["b"]), get_imports("a", ["b"]), get_imports("a", search_paths=None)]
+    assert (told, asked) == ([1, 2, 2, 1], [("a", None), ("a", ("b",))])
