@@ -17,16 +17,13 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy import stats
 
 from kiosk import UserInputError
 from kiosk.analysis.compare import kept_values
 from kiosk.analysis.plan import Correction, Exclusion, StudyPlan, bayes_factors
-from kiosk.analysis.policy_figures import STYLE
 from kiosk.analysis.simulated_study import HIGHEST_SUM, LOWEST_SUM, PACE_SPREAD, SCALES, SECONDS_PER_FLIP
 from kiosk.analysis.statistics import benjamini_hochberg, holm, student_error, two_sided, welch_error
 from kiosk.assistance.mentaliser import TargetRule
@@ -314,6 +311,12 @@ def smallest_n(rows: Sequence[PowerRow], test: str) -> int | None:
 
 def curve(rows: Sequence[PowerRow]) -> bytes:
     """Return the corrected power of each test over the participants an arm, as an SVG."""
+    # Each worker would load it, and none draws.
+    import matplotlib as mpl  # noqa: PLC0415
+    from matplotlib.figure import Figure  # noqa: PLC0415
+
+    from kiosk.analysis.policy_figures import STYLE  # noqa: PLC0415
+
     drawn = io.BytesIO()
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7, 4.4), layout="constrained")

@@ -6,9 +6,8 @@ import json
 import re
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -154,30 +153,31 @@ def test_a_file_that_is_no_store_of_blocks_is_refused_and_stays(plan: Path, tmp_
     assert store.read_text("latin-1") == content
 
 
+CLUSTER = """
+import sys
+from distributed import LocalCluster
+with LocalCluster(
+    n_workers=2, threads_per_worker=1, processes=False, host="127.0.0.1", protocol="tcp://", dashboard_address=None
+) as cluster:
+    print(cluster.scheduler_address, flush=True)
+    sys.stdin.read()
+"""
+"""A scheduler and two workers that talk to each other over the network, and are soon there in one process."""
+
+
 @contextmanager
-def running_cluster(folder: Path, workers: int) -> Iterator[str]:
-    """Provide a Dask scheduler of this machine with so many workers; its address."""
-    here = [sys.executable, "-m"]
-    address = folder / "scheduler.json"
-    scheduler = [*here, "distributed.cli.dask_scheduler", "--no-dashboard", "--host", "127.0.0.1", "--port", "0"]
-    # No nanny: it would be one more process, and no worker is started again here.
-    worker = [*here, "distributed.cli.dask_worker", "--no-dashboard", "--nthreads", "1", "--no-nanny"]
-    with ExitStack() as stack:
-        for words in (scheduler, *[worker] * workers):
-            started = subprocess.Popen(
-                [*words, "--scheduler-file", str(address)], cwd=folder, stderr=subprocess.DEVNULL
-            )
-            stack.callback(started.wait)
-            stack.callback(started.terminate)
-            deadline = time.monotonic() + 180
-            while not address.exists() and time.monotonic() < deadline:
-                time.sleep(0.05)
-        yield json.loads(address.read_text())["address"]
+def running_cluster() -> Iterator[str]:
+    """Provide a Dask scheduler of this machine with two workers; its address."""
+    command = [sys.executable, "-c", CLUSTER]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as cluster:
+        assert cluster.stdout is not None
+        yield cluster.stdout.readline().strip()
+        cluster.communicate()
 
 
 def test_a_dask_cluster_of_two_workers_gives_the_same_numbers(plan: Path, tmp_path: Path) -> None:
     asked = ("plan", "power", str(plan), "--n", "20", "--studies", "100", "--json")
-    with running_cluster(tmp_path, 2) as host:
+    with running_cluster() as host:
         told = json.loads(run(*asked, "--scheduler", host, "--store", str(tmp_path / "cluster")))
     alone = json.loads(run(*asked, "--workers", "1", "--store", str(tmp_path / "alone")))
     assert told["rows"] == alone["rows"]

@@ -6,7 +6,12 @@ speed-up must be at least 1.6; it is printed, and stands in ``extra_info`` of ``
 
 from __future__ import annotations
 
+import json
+import subprocess
+import sys
 import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +19,7 @@ import pytest
 
 from kiosk.analysis import power
 from kiosk.analysis.plan import TEMPLATE
-from tests.analysis.test_plan import job, running_cluster
+from tests.analysis.test_plan import job
 
 STUDIES = 1_000
 
@@ -40,3 +45,24 @@ def on_cluster(plan: Path, folder: Path, workers: int) -> float:
         began = time.perf_counter()
         power.run(wanted, folder / "blocks", scheduler=host)
         return time.perf_counter() - began
+
+
+@contextmanager
+def running_cluster(folder: Path, workers: int) -> Iterator[str]:
+    """Provide a Dask scheduler of this machine with so many workers; its address."""
+    here = [sys.executable, "-m"]
+    address = folder / "scheduler.json"
+    scheduler = [*here, "distributed.cli.dask_scheduler", "--no-dashboard", "--host", "127.0.0.1", "--port", "0"]
+    # No nanny: it would be one more process, and no worker is started again here.
+    worker = [*here, "distributed.cli.dask_worker", "--no-dashboard", "--nthreads", "1", "--no-nanny"]
+    with ExitStack() as stack:
+        for words in (scheduler, *[worker] * workers):
+            started = subprocess.Popen(
+                [*words, "--scheduler-file", str(address)], cwd=folder, stderr=subprocess.DEVNULL
+            )
+            stack.callback(started.wait)
+            stack.callback(started.terminate)
+            deadline = time.monotonic() + 180
+            while not address.exists() and time.monotonic() < deadline:
+                time.sleep(0.05)
+        yield json.loads(address.read_text())["address"]
