@@ -563,6 +563,8 @@ def test_the_time_left_to_say_that_one_is_there_is_shown_where_it_is_known(app: 
     assert seconds.property("text") in {"20", "19"}
     unit = find(app, "seconds-unit")
     assert unit.property("text") == "sec"
+    # Nothing else of the page is as wide as what is to be pressed in a hurry.
+    assert place(find(app, "still-here")).width() > 0.5 * app.window.width()
     # A screen reader would speak every second.
     assert is_ignored(seconds)
     assert is_ignored(unit)

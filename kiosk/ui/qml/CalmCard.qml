@@ -55,7 +55,7 @@ FocusScope {
     readonly property int secondsLeft: Math.ceil(msLeft / 1000)
     // Where nothing moves, the ring stays whole.
     readonly property int stepsLeft: Theme.motion === 0 ? steps : Math.ceil(steps * msLeft / Math.max(1, lasts))
-    readonly property real badge: (lasts > 0 ? (roomy ? 310 : speaker > 0 ? 220 : 200) : roomy ? 190 : large ? 150 : 112) * Theme.unit
+    readonly property real badge: (lasts > 0 ? (roomy ? 360 : speaker > 0 ? 220 : 200) : roomy ? 190 : large ? 150 : 112) * Theme.unit
     onLastsChanged: {
         emptying.stop()
         msLeft = lasts
@@ -140,7 +140,7 @@ FocusScope {
             id: content
             anchors.centerIn: parent
             width: parent.width - 4 * Theme.gap
-            spacing: (calm.roomy ? 2 : 1.5) * Theme.gap
+            spacing: (calm.roomy || calm.large && flow.alone ? 2 : 1.5) * Theme.gap
             Row {
                 anchors.horizontalCenter: parent.horizontalCenter
                 visible: calm.lies && !calm.spread
@@ -259,6 +259,8 @@ FocusScope {
                 // Two that fit beside each other are as wide, and far apart. The first is where the way on is on a page.
                 layoutDirection: pair && !Theme.mirrored ? Qt.RightToLeft : Qt.LeftToRight
                 readonly property real half: (content.width - spacing) / 2
+                // All there is to do, perhaps in a hurry, is as wide as the card.
+                readonly property bool alone: calm.choices.length === 1
                 readonly property bool pair: buttons.count === 2 && widest <= half
                 // How many there are by now: the count changes before they are made, and their widths would then be missed.
                 property int made: 0
@@ -275,6 +277,7 @@ FocusScope {
                     return sum + (made - 1) * spacing
                 }
                 anchors.horizontalCenter: parent.horizontalCenter
+                topPadding: alone && calm.large ? Theme.gap : 0
                 width: Math.min(content.width, Math.ceil(needed))
                 spacing: (buttons.count === 2 ? 2 : 1) * Theme.gap
                 visible: calm.choices.length > 0
@@ -287,9 +290,9 @@ FocusScope {
                         required property var modelData
                         objectName: modelData.name
                         most: content.width
-                        width: flow.pair ? Math.floor(flow.half) : Math.min(implicitWidth, most)
-                        font.pixelSize: Theme.size(calm.roomy ? 40 : 36)
-                        verticalPadding: 30 * Theme.unit
+                        width: flow.alone ? most : flow.pair ? Math.floor(flow.half) : Math.min(implicitWidth, most)
+                        font.pixelSize: Theme.size(flow.alone ? 50 : calm.roomy ? 40 : 36)
+                        verticalPadding: (flow.alone ? 36 : 30) * Theme.unit
                         words: modelData.words
                         quiet: modelData.quiet ?? false
                         onClicked: calm.chosen(modelData.name)

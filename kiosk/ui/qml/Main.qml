@@ -370,7 +370,7 @@ Window {
         calls: root.accompanied && attractView.visible
         grows: reach > 0
         leads: root.asking || !root.speaks
-        hushed: root.asking && (!root.wide || !root.kiosk.asksStillThere)
+        hushed: root.asking
         readonly property bool done: boardPage.visible && boardPage.view.last.length > 0 && !root.board.practice
         // How a move goes on, and that it made a pair, is said in the practice; in the game a line under the cards says it.
         readonly property bool practises: boardPage.visible && root.board.practice
@@ -380,9 +380,7 @@ Window {
         readonly property bool tells: (second || missed) && aside !== "" && !says
         readonly property string turn: second ? root.words["practice-second"] : missed ? root.words["practice-turning-back"] : glad ? root.words["practice-pair"] : done ? root.words["game-found"]
             : boardPage.visible && root.board.untouched && root.board.open ? root.words["game-begin"] : ""
-        aside: !root.avatar.present || root.whole ? "" : !root.wide ? (root.kiosk.asks === "" && !root.kiosk.asksStillThere ? turn : "")
-             : root.kiosk.asksStillThere ? root.words["still-there-line"]
-             : root.kiosk.asks !== "" ? "" : attractView.visible ? root.attract.line
+        aside: !root.avatar.present || root.whole || root.kiosk.asks !== "" || root.kiosk.asksStillThere ? "" : !root.wide ? turn : attractView.visible ? root.attract.line
              : formPage.visible ? (root.avatar.away || formPage.keysBeside ? "" : root.words["form-calm"])
              : boardPage.visible ? turn
              : [aboutPage, agePage, consentPage, debriefPage].find(page => page.shown)?.aside ?? ""
@@ -434,14 +432,17 @@ Window {
             focus: true
             sign: "M1.5 12 C6 3.5 18 3.5 22.5 12 C18 20.5 6 20.5 1.5 12 Z M12 8.5 A3.5 3.5 0 0 1 12 15.5 A3.5 3.5 0 0 1 12 8.5"
             title: root.words["still-there-title"]
-            least: (roomy ? 1000 : speaker > 0 && boardPage.visible ? 730 : root.asking && root.wide ? 640 : 0) * Theme.unit
-            broad: (root.asking && root.wide ? 1060 : 900) * Theme.unit
+            least: roomy ? Math.min(1180 * Theme.unit, 0.83 * speaker) : speaker > 0 && boardPage.visible ? 730 * Theme.unit : 0
+            bound: root.boardOnRight ? helper.x + helper.width : helper.x
+            broadest: 1214 * Theme.unit
             veil: root.asking ? 1 : 0.94
-            titleSize: roomy || root.asking && root.wide && Theme.textSize <= 1 ? Theme.size(76) : Theme.figure
+            titleSize: roomy ? Theme.size(88) : beside > 0 && Theme.textSize <= 1 ? Theme.size(76) : Theme.figure
             middle: root.asking && root.wide ? stage.middle : Qt.point(root.width / 2, root.room / 2)
             speaker: root.faceBelow
-            line: root.asking && root.wide ? "" : root.words["still-there-line"]
-            lineSize: Theme.size(roomy ? 42 : 36)
+            beside: root.faceBeside
+            atLeft: root.boardOnRight
+            line: root.words["still-there-line"]
+            lineSize: Theme.size(roomy ? 42 : large ? 40 : 36)
             // A replay has a time of its own.
             lasts: root.replay === null ? root.kiosk.answerMs : 0
             second: root.words["still-there-second"]
