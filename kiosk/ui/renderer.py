@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from enum import Enum
 from functools import partial
 from pathlib import Path
@@ -57,6 +57,17 @@ def sound_for(effects: Iterable[Effect]) -> SoundEffect | None:
     return next((sound for sound in SoundEffect if sound in heard), None)
 
 
+_FILLED: Mapping[type[Effect], str] = {
+    do.ShowAbout: "about",
+    do.ShowConsent: "consent",
+    do.ShowAgeQuestion: "age",
+    do.ShowIntroduction: "introduction",
+    do.ShowResult: "result",
+    do.ShowItems: "form",
+    do.ShowDebrief: "debrief",
+}
+"""The page that an effect fills and then shows."""
+
 FEELING_MS = 1_800
 """How long the avatar looks glad at a pair, or thoughtful at two cards that are none, unless the session says more."""
 
@@ -110,6 +121,8 @@ class Renderer:
         """Carry out these effects in their order; yields where the event loop may do other things in between."""
         screens = self.screens
         for effect in effects:
+            if type(effect) in _FILLED:
+                screens.kiosk.expect(_FILLED[type(effect)])
             match effect:
                 case do.ShowAbout(page=page):
                     screens.about.show(page)
@@ -127,6 +140,9 @@ class Renderer:
                     yield from self._turn_to("introduction")
                 case do.ShowBoard(practice=practice):
                     board = screens.board
+                    # What was asked before is not laid out anew whenever a robot comes or goes.
+                    screens.form.clear()
+                    yield
                     board.clear_table(effect.rows, effect.columns, effect.pairs, effect.deck, practice=practice)
                     # To make the cards is a step of its own.
                     yield
@@ -183,9 +199,9 @@ class Renderer:
                     screens.result.show(pairs, moves, time_ms, hints, screens.board.found)
                     yield from self._turn_to("result")
                 case do.ShowItems(items=items, number=number, of=pages, rates=rates, hidden=hidden):
+                    self._let_be_rated(rated=rates)
                     screens.form.show(items, number, pages, hidden)
                     yield from self._while_unseen("form")
-                    self._let_be_rated(rated=rates)
                     screens.kiosk.show("form")
                 case do.HideItems(items=hidden):
                     screens.form.hide(hidden)

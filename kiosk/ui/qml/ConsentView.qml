@@ -35,6 +35,7 @@ PageFrame {
     Keys.onPressed: event => pane.turn(event)
 
     beside: toggle
+    besides: consent.points.length > 0
 
     // The place of a box, and how high the box alone is.
     component Purpose: Item {
@@ -44,7 +45,7 @@ PageFrame {
     BigButton {
         id: toggle
         objectName: "read-more"
-        visible: view.consent.points.length > 0
+        visible: view.besides
         most: 0.45 * view.column
         x: Theme.across(view.column - width, width, view.column)
         // In the title's line.
@@ -105,7 +106,7 @@ PageFrame {
                 readonly property int first: halved ? view.half(texts) : texts.length
                 readonly property real column: halved ? (width - 4 * Theme.gap) / 2 : width - 2 * Theme.gap
                 width: pane.width
-                height: Math.max(left.height, right.visible ? right.height : 0) + 1.4 * Theme.gap
+                height: Math.max(left.height, halved ? right.height : 0) + 1.4 * Theme.gap
                 radius: Theme.radius
                 color: Theme.white
                 border { color: Theme.edge; width: 2 * Theme.unit }

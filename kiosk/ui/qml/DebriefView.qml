@@ -133,9 +133,9 @@ PageFrame {
         Item {
             id: parts
             // What is taken home is seen without scrolling.
-            readonly property bool cardFirst: keepsake.visible && texts.height + keepsake.height + apart > view.room
+            readonly property bool cardFirst: keepsake.there && texts.height + keepsake.height + apart > view.room
             width: pane.width
-            height: texts.height + keepsake.height + (keepsake.visible ? apart : 0)
+            height: texts.height + keepsake.height + (keepsake.there ? apart : 0)
             // Lines and card stand further apart than the lines, by half of what is free.
             readonly property real apart: Theme.gap + (view.signed ? Math.max(0, Math.min(1.5 * Theme.gap, (view.room - texts.height - keepsake.height - Theme.gap) / 2)) : 0)
             Item {
@@ -187,9 +187,10 @@ PageFrame {
                 width: pane.width
                 // On an upright screen its first line stands over all of its width, so that the code has more room.
                 readonly property real crown: told.stacked ? first.height + 0.6 * Theme.gap : 0
-                height: visible ? crown + Math.max(qr.height + 2 * view.rim, told.height) + 2 * view.pad : 0
+                height: there ? crown + Math.max(qr.height + 2 * view.rim, told.height) + 2 * view.pad : 0
                 // Who is not stored has no code, and may have questions all the same.
-                visible: view.debrief.code !== "" || view.debrief.questions !== ""
+                readonly property bool there: view.debrief.code !== "" || view.debrief.questions !== ""
+                visible: there
                 radius: Theme.radius
                 color: Theme.white
                 border { color: Theme.amber; width: 4 * Theme.unit }
@@ -231,7 +232,7 @@ PageFrame {
                     id: told
                     readonly property bool stacked: view.signed && view.width < view.height
                     anchors {
-                        left: qr.right; leftMargin: (qr.visible ? 1.5 : 0.25) * Theme.gap
+                        left: qr.right; leftMargin: (view.debrief.code !== "" ? 1.5 : 0.25) * Theme.gap
                         right: parent.right; rightMargin: stacked ? view.pad : Theme.gap
                         verticalCenter: parent.verticalCenter; verticalCenterOffset: keepsake.crown / 2
                     }

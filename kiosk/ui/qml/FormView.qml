@@ -111,7 +111,7 @@ PageFrame {
     }
     readonly property real spread: (dense || tight ? 8 : 12) * Theme.unit
     // How far below the line of the pages the first card begins.
-    readonly property real lead: upright && progress.visible && Theme.textSize <= 1.15 ? 28 * Theme.unit : 0
+    readonly property real lead: upright && besides && Theme.textSize <= 1.15 ? 28 * Theme.unit : 0
     // Whether there is little height for what stands on the page.
     readonly property bool tight: room < 720 * Theme.unit
 
@@ -191,6 +191,7 @@ PageFrame {
     way.reason: form.waiting
     label: words[form.skips ? "form-skip" : "form-next"]
     beside: progress
+    besides: form.progress !== ""
     onWent: form.proceed()
     covered: keyboard.field === null || keyboard.numbers ? 0 : keyboard.height
     lift: {
@@ -293,7 +294,7 @@ PageFrame {
     }
     // The same as a line of as many parts, over an upright page. The part of this page is the darkest and thickest.
     Row {
-        visible: progress.visible && view.upright
+        visible: view.besides && view.upright
         y: -0.83 * Theme.gap
         width: view.column
         spacing: 8 * Theme.unit
@@ -315,7 +316,7 @@ PageFrame {
         id: progress
         objectName: "form-progress"
         textFormat: Text.PlainText
-        visible: text !== ""
+        visible: view.besides
         text: view.form.progress
         font.pixelSize: Theme.size(34)
         // Beside the title on a wide screen, where the controls and the dots of the visit are at the end of its line.
@@ -346,7 +347,7 @@ PageFrame {
                 let sum = 0
                 for (let i = 0; i < boxes.count; i++) {
                     const box = boxes.itemAt(i) as FormItem
-                    sum += box?.visible ? box.plain + (view.questionHeight > 0 || view.tiles !== null ? 24 : 30) * Theme.unit : 0
+                    sum += box?.there ? box.plain + (view.questionHeight > 0 || view.tiles !== null ? 24 : 30) * Theme.unit : 0
                 }
                 return sum
             }
@@ -354,7 +355,7 @@ PageFrame {
                 let sum = 0
                 for (let i = 0; i < boxes.count; i++) {
                     const box = boxes.itemAt(i) as FormItem
-                    sum += box?.visible ? box.addable : 0
+                    sum += box?.there ? box.addable : 0
                 }
                 return sum
             }
@@ -363,7 +364,7 @@ PageFrame {
                 let sum = 0
                 for (let i = 0; i < boxes.count; i++) {
                     const box = boxes.itemAt(i) as FormItem
-                    sum += box?.visible ? box.height : 0
+                    sum += box?.there ? box.height : 0
                 }
                 return sum
             }

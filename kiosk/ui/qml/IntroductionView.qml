@@ -132,8 +132,8 @@ PageFrame {
     Grid {
         id: scenes
         y: view.sink(height)
-        readonly property real cell: Math.min(turn.most, match.most, hint.visible ? hint.most : Infinity)
-        readonly property real tallest: Math.max(turn.wish, match.wish, hint.visible ? hint.wish : 0)
+        readonly property real cell: Math.min(turn.most, match.most, view.introduction.helped ? hint.most : Infinity)
+        readonly property real tallest: Math.max(turn.wish, match.wish, view.introduction.helped ? hint.wish : 0)
         columns: view.abreast ? 3 : 1
         spacing: Theme.gap
         // Two that differ: turned one after the other, and turned back.

@@ -51,7 +51,10 @@ Window {
     // Beside a robot an upright screen has all of its height, but for a line of controls and the sentence above it.
     readonly property bool high: !wide && !avatar.present
     readonly property real sentence: speaks ? 260 * Math.max(1, texts) * Theme.unit : 0
-    readonly property bool speaks: ["attract", "introduction", "practice", "game", "result", "thanks"].includes(kiosk.screen)
+    readonly property bool speaks: speaksOn(kiosk.screen)
+    function speaksOn(screen: string): bool {
+        return ["attract", "introduction", "practice", "game", "result", "thanks"].includes(screen)
+    }
     readonly property real texts: Math.min(1.5, textSize * kiosk.textScale)
     // On a wide screen the helper stands beside every page, and says some of its lines.
     readonly property bool accompanied: wide && avatar.present
@@ -61,7 +64,13 @@ Window {
     readonly property real faceBelow: !wide && avatar.present && !avatar.away ? helper.y + helper.faceTop : 0
     // And where its middle is beside them on a wide screen.
     readonly property real faceBeside: accompanied && !avatar.away ? helper.y + helper.faceMiddle : 0
-    readonly property real said: !whole ? 0 : speaks ? 176 * Math.max(1, texts) * Theme.unit : corner.visible ? 84 * Theme.unit : 0
+    // How large a page is on a wide screen. It depends on the page alone, so that one that is filled has its size already.
+    function widthOn(screen: string): real {
+        return whole || avatar.away && screen === "form" ? width : width * (screen === "attract" ? 0.64 : 0.715)
+    }
+    function heightOn(screen: string): real {
+        return room - (!whole ? 0 : speaksOn(screen) ? 176 * Math.max(1, texts) * Theme.unit : corner.visible ? 84 * Theme.unit : 0)
+    }
     readonly property real room: height - (replay === null ? 0 : controls.height) - memory.height
 
     width: 1920
@@ -104,10 +113,10 @@ Window {
         readonly property bool shown: root.kiosk.screen === name
         // What of it the helper says.
         readonly property string aside: (item as PageFrame)?.aside ?? ""
-        // A page that is not seen keeps its size: laying out all their texts anew holds up the one that comes.
-        readonly property bool follows: shown || status !== Loader.Ready
-        Binding on width { when: page.follows; value: stage.width; restoreMode: Binding.RestoreNone }
-        Binding on height { when: page.follows; value: stage.height; restoreMode: Binding.RestoreNone }
+        // A page that is not seen keeps its size until it is filled: laying out all their texts anew holds up the others.
+        readonly property bool follows: shown || status !== Loader.Ready || root.wide && root.kiosk.coming === name
+        Binding on width { when: page.follows; value: root.wide ? root.widthOn(page.name) : stage.width; restoreMode: Binding.RestoreNone }
+        Binding on height { when: page.follows; value: root.wide ? root.heightOn(page.name) : stage.height; restoreMode: Binding.RestoreNone }
         asynchronous: !shown
         visible: shown && status === Loader.Ready
         focus: visible && root.kiosk.bare
@@ -135,10 +144,10 @@ Window {
         // A form without an onlooker stands in the middle.
         readonly property point middle: Qt.point(x + (boardPage.visible ? boardPage.view.middle : width / 2), root.room / 2)
         readonly property bool unwatched: root.avatar.away && root.kiosk.screen === "form"
-        width: root.wide && !root.whole && !unwatched ? root.width * (attractView.visible ? 0.64 : 0.715) : root.width
+        width: root.wide ? root.widthOn(root.kiosk.screen) : root.width
         // On an upright screen the assistant stands below: with its sentence, alone, or not at all. It makes room for
         // large texts, but on a form, where the keys of a number stand in its place.
-        height: root.wide ? root.room - root.said
+        height: root.wide ? root.heightOn(root.kiosk.screen)
               : root.high ? (boardPage.visible ? Math.min(free, boardPage.view.wish) : free)
               : unwatched ? root.room - corner.height - Theme.gap : root.room * upright
         // Board and assistant stand close together: the board takes what its cards need, at least half of the screen.
@@ -158,8 +167,8 @@ Window {
             // Its words may stand a little lower, beside the room above the helper's ears.
             readonly property real further: !root.wide && root.avatar.present && !helper.says && root.texts <= 1.15 ? 0.045 * root.room : 0
             // As a page, it keeps its size while it is not seen.
-            Binding on width { when: attractView.visible; value: stage.width; restoreMode: Binding.RestoreNone }
-            Binding on height { when: attractView.visible; value: stage.height + attractView.further; restoreMode: Binding.RestoreNone }
+            Binding on width { when: attractView.visible; value: root.wide ? root.widthOn("attract") : stage.width; restoreMode: Binding.RestoreNone }
+            Binding on height { when: attractView.visible; value: (root.wide ? root.heightOn("attract") : stage.height) + attractView.further; restoreMode: Binding.RestoreNone }
             Binding on accompanied { when: attractView.visible; value: root.accompanied; restoreMode: Binding.RestoreNone }
             visible: root.kiosk.screen === "attract"
             focus: visible && root.kiosk.bare
@@ -222,10 +231,10 @@ Window {
                     id: formView
                     x: stage.x
                     y: stage.y
-                    // It takes another size before it is filled, but not while a robot comes or goes in a game.
-                    Binding on width { when: !boardPage.visible; value: stage.width; restoreMode: Binding.RestoreNone }
-                    Binding on height { when: !boardPage.visible; value: stage.height; restoreMode: Binding.RestoreNone }
-                    Binding on accompanied { when: !boardPage.visible; value: root.accompanied && !root.avatar.away; restoreMode: Binding.RestoreNone }
+                    readonly property bool follows: formPage.shown || formPage.status !== Loader.Ready || root.wide && root.kiosk.coming === "form"
+                    Binding on width { when: formView.follows; value: root.wide ? root.widthOn("form") : stage.width; restoreMode: Binding.RestoreNone }
+                    Binding on height { when: formView.follows; value: root.wide ? root.heightOn("form") : stage.height; restoreMode: Binding.RestoreNone }
+                    Binding on accompanied { when: formView.follows; value: root.accompanied && !root.avatar.away; restoreMode: Binding.RestoreNone }
                     focus: true
                     aligned: root.accompanied
                     before: stage.x

@@ -21,6 +21,8 @@ FocusScope {
     property real covered: 0
     // What stands at the end of the title's line, if anything.
     property Item beside: null
+    // Whether it does. That it is seen depends on the page as well.
+    property bool besides: false
     // Whether the helper stands beside this page on a wide screen, and what is then read in its bubble instead of here.
     property bool accompanied: false
     property string aside: ""
@@ -73,7 +75,7 @@ FocusScope {
         x: body.x + Theme.across(0, width, frame.column)
         y: frame.above
         transform: Translate { y: -frame.lift }
-        width: frame.column - (frame.beside?.visible ? frame.beside.width + Theme.gap : 0)
+        width: frame.column - (frame.besides ? frame.beside.width + Theme.gap : 0)
         visible: text !== ""
         text: frame.title
         horizontalAlignment: Text.AlignLeft
@@ -84,7 +86,7 @@ FocusScope {
     Item {
         id: body
         x: (frame.width - width) / 2
-        y: heading.y + (heading.visible ? Math.max(heading.height, frame.beside?.visible ? frame.beside.height : 0) + Theme.gap : 0)
+        y: heading.y + (frame.title !== "" ? Math.max(heading.height, frame.besides ? frame.beside.height : 0) + Theme.gap : 0)
         width: frame.column
         height: frame.room
         transform: Translate { y: -frame.lift }

@@ -21,6 +21,7 @@ PageFrame {
         (room - (lined ? line.implicitHeight + Theme.gap : 0) - board.height - Theme.gap) / rows))
     // Where there are many rows, the pairs have the room of the line above them.
     readonly property bool lined: count > 0 && rows <= 2
+    readonly property bool hinted: result.hints !== ""
     // Where there are few, the figures are larger.
     readonly property bool roomy: width > height && Theme.textSize <= 1.15
     // Stands up when the screen comes, one pair after another.
@@ -163,9 +164,9 @@ PageFrame {
             Grid {
                 id: figures
                 // All in one row; or where that is too narrow, two and two.
-                readonly property int shown: hints.visible ? 4 : 3
-                readonly property real wish: pairs.wish + moves.wish + time.wish + (hints.visible ? hints.wish : 0)
-                readonly property real widest: Math.max(pairs.wish + moves.wish, time.wish + (hints.visible ? hints.wish : 0))
+                readonly property int shown: view.hinted ? 4 : 3
+                readonly property real wish: pairs.wish + moves.wish + time.wish + (view.hinted ? hints.wish : 0)
+                readonly property real widest: Math.max(pairs.wish + moves.wish, time.wish + (view.hinted ? hints.wish : 0))
                 readonly property real room: board.width - Theme.gap
                 readonly property real spare: Math.max(0, columns === shown ? (room - wish) / shown : (room - widest) / 2)
                 anchors.centerIn: parent
@@ -202,7 +203,7 @@ PageFrame {
                 }
                 Figure {
                     id: hints
-                    visible: view.result.hints !== ""
+                    visible: view.hinted
                     value: view.result.hints
                     label: view.words["result-hints-label"]
                     Sign { // a bubble with three dots

@@ -11,6 +11,7 @@ Item {
     readonly property string lead: text.includes("\n") ? text.slice(0, text.indexOf("\n")) : ""
     // The name of a drawing; without one the text has all of the width.
     property string sign: ""
+    readonly property bool signed: sign !== ""
     property bool strong: false
     property real size: Theme.body
     property real leading: 1.08
@@ -44,11 +45,11 @@ Item {
     // How high it is at least, so that lines beside each other begin together.
     property real least: 0
 
-    height: Math.max(words.height, mark.visible ? mark.height : 0, least)
+    height: Math.max(words.height, signed ? mark.height : 0, least)
 
     Rectangle {
         id: mark
-        visible: line.sign !== ""
+        visible: line.signed
         x: Theme.across(0, width, line.width)
         y: line.centred ? (line.height - height) / 2 : Math.max(0, (Math.min(words.height, 2.7 * line.size) - height) / 2)
         width: line.badge
@@ -72,9 +73,9 @@ Item {
     }
     Column {
         id: words
-        readonly property real indent: mark.visible ? mark.width + Theme.gap : 0
+        readonly property real indent: line.signed ? mark.width + Theme.gap : 0
         x: Theme.across(indent, width, line.width)
-        y: mark.visible ? Math.max(0, (mark.height - height) / 2) : 0
+        y: line.signed ? Math.max(0, (mark.height - height) / 2) : 0
         width: line.width - indent
         Balanced {
             width: parent.width

@@ -29,27 +29,31 @@ FocusScope {
     readonly property real letters: other === "" ? Theme.onButtons : Theme.body
     readonly property alias button: go
     // Where there is room between the way back and the way on.
-    readonly property real free: back.visible ? back.x + back.width : 0
+    readonly property real free: returns ? back.x + back.width : 0
     readonly property real freeRoom: beside ? go.x - free : 0
+    // Which of the three there are. Whether they are seen depends on the page as well.
+    readonly property bool goes: label !== ""
+    readonly property bool refuses: other !== ""
+    readonly property bool returns: kiosk.goesBack
     signal went()
     signal turnedDown()
 
-    readonly property real wish: (go.visible ? go.implicitWidth : 0) + (no.visible ? no.implicitWidth + Theme.gap : 0)
-        + (back.visible ? back.implicitWidth + Theme.gap : 0)
+    readonly property real wish: (goes ? go.implicitWidth : 0) + (refuses ? no.implicitWidth + Theme.gap : 0)
+        + (returns ? back.implicitWidth + Theme.gap : 0)
     readonly property bool beside: wish <= width
     // How wide both are then: where they have all of the width, or else as their words need.
-    readonly property bool level: even && beside && go.visible && no.visible
-    readonly property real spread: (width - (back.visible ? back.width + Theme.gap : 0) - Theme.gap) / 2
+    readonly property bool level: even && beside && goes && refuses
+    readonly property real spread: (width - (returns ? back.width + Theme.gap : 0) - Theme.gap) / 2
     readonly property real share: fills ? spread : Math.min(spread, Math.max(go.implicitWidth, no.implicitWidth))
     readonly property real step: 0.5 * Theme.gap
     // As high without a way on, so that the way back stands at the same place.
-    readonly property real tallest: level ? go.implicitHeight : !go.visible && !back.visible ? 0 : Math.max(go.visible ? go.height : go.implicitHeight, back.visible ? back.height : 0)
+    readonly property real tallest: level ? go.implicitHeight : !goes && !returns ? 0 : Math.max(goes ? go.height : go.implicitHeight, returns ? back.height : 0)
 
     // Where there are too many for one row: whether the way back stands beside the other one.
-    readonly property bool paired: no.visible && back.implicitWidth + Theme.gap + no.implicitWidth <= width
+    readonly property bool paired: refuses && back.implicitWidth + Theme.gap + no.implicitWidth <= width
 
-    height: beside ? tallest : (go.visible ? go.height : 0) + (no.visible ? no.height + step : 0)
-                               + (back.visible && !paired ? back.height + step : 0)
+    height: beside ? tallest : (goes ? go.height : 0) + (refuses ? no.height + step : 0)
+                               + (returns && !paired ? back.height + step : 0)
 
     // The next visitor begins at the way on, whichever button the last one used.
     onVisibleChanged: go.focus = true
@@ -58,12 +62,12 @@ FocusScope {
         id: go
         letters: ways.letters
         objectName: ways.name
-        visible: ways.label !== ""
+        visible: ways.goes
         most: ways.width
         width: ways.level ? ways.share
-             : !ways.fills || ways.beside && no.visible ? Math.min(implicitWidth, most)
+             : !ways.fills || ways.beside && ways.refuses ? Math.min(implicitWidth, most)
              // No wider than the other way on, which is as easy to find.
-             : (ways.beside || ways.paired) && back.visible ? ways.width - back.width - Theme.gap : ways.width
+             : (ways.beside || ways.paired) && ways.returns ? ways.width - back.width - Theme.gap : ways.width
         x: Theme.across(ways.width - width, width, ways.width)
         // Where the other one has two lines, both grow up and down, and the row stays where it is.
         y: ways.level ? (ways.tallest - height) / 2 : 0
@@ -81,10 +85,10 @@ FocusScope {
         id: no
         letters: ways.letters
         objectName: ways.otherName
-        visible: ways.other !== ""
+        visible: ways.refuses
         most: ways.width
         width: ways.level ? ways.share
-             : !ways.fills || !back.visible ? Math.min(implicitWidth, most)
+             : !ways.fills || !ways.returns ? Math.min(implicitWidth, most)
              : ways.beside ? ways.width - go.width - back.width - 2 * Theme.gap : ways.paired ? ways.width - back.width - Theme.gap : ways.width
         x: Theme.across(ways.width - width - (ways.beside ? go.width + Theme.gap : 0), width, ways.width)
         y: ways.level ? go.y : ways.beside ? 0 : go.height + ways.step
@@ -104,7 +108,7 @@ FocusScope {
         id: back
         letters: ways.letters
         objectName: "back"
-        visible: ways.kiosk.goesBack
+        visible: ways.returns
         most: ways.width
         x: Theme.across(0, width, ways.width)
         // Level with a way on of usual letters, also beside one of larger letters.

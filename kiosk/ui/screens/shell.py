@@ -131,9 +131,11 @@ class KioskScreen(QObject):
     confirmed = Signal()
     """The visitor said that they are still there."""
     screen_changed = Signal()
+    """Something else is shown than a moment ago."""
+    expected = Signal()
+    """Another page is filled, and shown a moment later."""
     pressed = Signal()
     """A button was pressed, whichever it was."""
-    """Something else is shown than a moment ago."""
     chosen = Signal()
     """A person chose text size or sound on the start screen."""
     controls = Signal()
@@ -151,6 +153,7 @@ class KioskScreen(QObject):
         super().__init__(parent)
         self._words = fixed_texts(catalogue)
         self._screen = "attract"
+        self._coming = ""
         self._asks_still_there = False
         self._answer_ms = 0
         self._paused = self._behind_panel = self._waits = False
@@ -220,12 +223,19 @@ class KioskScreen(QObject):
         self.spoken.emit()
         self.controls.emit()
 
+    def expect(self, screen: str) -> None:
+        """Let the page of this name get the size that it is shown in, before it is filled."""
+        if screen != self._coming:
+            self._coming = screen
+            self.expected.emit()
+
     def show(self, screen: str) -> None:
         """Show the screen of this name; it takes no input until ``end_input_guard``."""
         self._screen = screen
         self._asks = ""
         self.controls.emit()
         self._start_input_guard()
+        self.expect("")
 
     def end_input_guard(self) -> None:
         """Take input: a double click on the last screen is over by now."""
@@ -314,6 +324,11 @@ class KioskScreen(QObject):
     def screen(self) -> str:
         """Return the name of the screen that is shown."""
         return self._screen
+
+    @Property(str, notify=expected)
+    def coming(self) -> str:
+        """Return the name of the page that is filled to be shown next; empty while none is."""
+        return self._coming
 
     @Property(bool, notify=changed)
     def asksStillThere(self) -> bool:  # noqa: N802 - QML's convention

@@ -92,7 +92,8 @@ Item {
     }
 
     objectName: `item-${item.id}`
-    visible: !form.hidden.includes(item.id)
+    readonly property bool there: !form.hidden.includes(item.id)
+    visible: there
     // Qt would give the keyboard back to a field that is not to be seen.
     onVisibleChanged: {
         if (!visible) {
