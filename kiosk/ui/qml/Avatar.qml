@@ -80,12 +80,14 @@ Item {
     readonly property point rightHand: Qt.point(trail.hRx + (372 + 16 * sway - trail.hRx) * waving,
                                                 trail.hRy + (284 - trail.hRy) * waving)
 
-    // Where a hand is that points: the forearm goes straight from beside the shoulder towards the target.
+    // Where a hand is that points: the forearm goes from beside the shoulder towards the target. To one far beside and
+    // above it, the hand is raised further, nearer to the target's height; the finger still points at it.
     function pointingHand(side: int): point {
         const x = 200 + side * (108 + 52 * steep), y = 416
-        const far = Math.max(1, Math.hypot(goal.x - x, goal.y - y))
-        const length = 112 + 10 * jab
-        return Qt.point(x + (goal.x - x) / far * length, y + (goal.y - y) / far * length)
+        const up = Math.atan2(y - goal.y, side * (goal.x - x))
+        const raised = up > 0 && up < Math.PI / 2 ? Math.max(up, Math.min(1.15, 2.8 * up)) : up
+        const length = 112 + 34 * Math.min(1, raised - up) + 10 * jab
+        return Qt.point(x + side * Math.cos(raised) * length, y - Math.sin(raised) * length)
     }
     function reached(side: int, rest: point): point {
         if (near !== side)
