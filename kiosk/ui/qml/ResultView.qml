@@ -50,7 +50,7 @@ PageFrame {
         property string spoken: value
         readonly property real wish: Math.max(figured.width, caption.implicitWidth)
         spacing: 0.2 * Theme.gap
-        width: Math.min(wish + figures.spare, figures.room)
+        width: Math.min(figures.even > 0 ? figures.even : wish + figures.spare, figures.room)
         Row {
             id: figured
             anchors.horizontalCenter: parent.horizontalCenter
@@ -168,6 +168,9 @@ PageFrame {
                 readonly property real wish: pairs.wish + moves.wish + time.wish + (view.hinted ? hints.wish : 0)
                 readonly property real widest: Math.max(pairs.wish + moves.wish, time.wish + (view.hinted ? hints.wish : 0))
                 readonly property real room: board.width - Theme.gap
+                // As wide as each other, where the widest has room in that.
+                readonly property real share: room / columns
+                readonly property real even: Math.max(pairs.wish, moves.wish, time.wish, hints.visible ? hints.wish : 0) + 0.5 * Theme.gap <= share ? share : 0
                 readonly property real spare: Math.max(0, columns === shown ? (room - wish) / shown : (room - widest) / 2)
                 anchors.centerIn: parent
                 columns: wish + shown * Theme.gap <= room ? shown : 2
