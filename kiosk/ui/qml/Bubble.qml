@@ -10,7 +10,8 @@ Item {
     required property bool hasSpeaker   // whether there is a face below it to point at
     property bool thinks: false         // whether it is still looking for words
     property bool calls: false          // whether it is to be read from far away
-    property bool grows: false          // whether it has room for large words, and always the height of two lines
+    property bool grows: false          // whether it has room for large words
+    property bool cheers: false         // whether the sentence is a cheer: large, bold and in the middle
     property string speaker: ""         // whose words they are; empty where no speaker has a name
 
     // Between the bubble and the face; without a face only the edge of the window has to be kept clear of.
@@ -25,8 +26,15 @@ Item {
     opacity: sentence === "" && !thinks ? 0 : 1
     Behavior on opacity { NumberAnimation { duration: Theme.motion } }
 
-    // The last sentence stays in the bubble while it fades, and no longer.
-    onSentenceChanged: if (sentence !== "") words.text = sentence
+    // The last sentence stays in the bubble while it fades, and no longer. A cheer stays one.
+    property bool cheered: false
+    onCheersChanged: if (sentence !== "") cheered = cheers
+    onSentenceChanged: {
+        if (sentence === "")
+            return
+        cheered = cheers
+        words.text = sentence
+    }
     onThinksChanged: if (thinks) words.text = sentence
     onOpacityChanged: if (opacity === 0) words.text = ""
 
@@ -37,7 +45,8 @@ Item {
         width: words.width
         textFormat: Text.PlainText
         text: words.text
-        font.pixelSize: Theme.size(bubble.calls ? 50 : bubble.grows ? (large.lineCount <= 2 ? 38 : 34) : 36)
+        font.pixelSize: Theme.size(bubble.cheered ? (bubble.grows ? 64 : 52) : bubble.calls ? 50 : bubble.grows ? (large.lineCount <= 2 ? 38 : 34) : 36)
+        font.bold: bubble.cheered
         lineHeight: words.lineHeight
         wrapMode: Text.Wrap
     }
@@ -54,10 +63,7 @@ Item {
     Rectangle {
         id: box
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom; bottomMargin: bubble.tail }
-        height: Math.max(words.height, least) + bubble.tag + 2 * Theme.gap
-        readonly property real least: bubble.grows ? Math.min(bubble.room, 2 * words.lineHeight * 1.37 * large.font.pixelSize) : 0
-        // Words that leave some of it free stand in the middle between the name and the lower edge.
-        readonly property real lower: Math.max(0, least - words.height) / 2
+        height: words.height + bubble.tag + 2 * Theme.gap
         radius: Theme.radius
         color: Theme.white
         border.color: Theme.sea
@@ -65,13 +71,15 @@ Item {
 
         Balanced {
             id: words
-            anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap; topMargin: Theme.gap + bubble.tag + box.lower + Math.min(0.35 * Theme.gap, box.lower) }
+            anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap; topMargin: Theme.gap + bubble.tag }
             // What would not fit above the face is set smaller: half the size takes a quarter of the room.
             font.pixelSize: {
                 const share = Math.max(0, bubble.room / Math.max(1, usual.height))
                 return share >= 1 ? usual.font.pixelSize : Math.max(Theme.size(0), usual.font.pixelSize * 0.95 * Math.sqrt(share))
             }
-            horizontalAlignment: LayoutMirroring.enabled ? Text.AlignLeft : undefined
+            font.bold: bubble.cheered
+            color: bubble.cheered ? Theme.sea : Theme.ink
+            horizontalAlignment: bubble.cheered ? Text.AlignHCenter : LayoutMirroring.enabled ? Text.AlignLeft : undefined
             lineHeight: 1.12
             Accessible.role: Accessible.AlertMessage
         }

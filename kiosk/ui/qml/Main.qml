@@ -389,6 +389,7 @@ Window {
         readonly property bool tells: (second || missed) && aside !== "" && !says
         readonly property string turn: second ? root.words["practice-second"] : missed ? root.words["practice-turning-back"] : glad ? root.words["practice-pair"] : done ? root.words["game-found"]
             : boardPage.visible && root.board.untouched && root.board.open ? root.words["game-begin"] : ""
+        cheers: aside !== "" && aside === turn && (glad || done) && !second && !missed
         aside: !root.avatar.present || root.whole || root.kiosk.asks !== "" || root.kiosk.asksStillThere ? "" : !root.wide ? turn : attractView.visible ? root.attract.line
              : formPage.visible ? (root.avatar.away || formPage.keysBeside ? "" : root.words["form-calm"])
              : boardPage.visible ? turn
@@ -422,7 +423,7 @@ Window {
         opacity: corner.opacity
         readonly property bool aside: root.wide && !root.whole
         // Beside the place of the button that comes and goes, so that they stay where they are.
-        x: !aside ? Theme.gap : corner.atLeft ? 2.75 * Theme.gap + corner.fullWidth : corner.x + corner.width - corner.fullWidth - 1.75 * Theme.gap - width
+        x: !aside ? Theme.gap : corner.atLeft ? 2 * Theme.gap + corner.fullWidth : corner.x + corner.width - corner.fullWidth - Theme.gap - width
         y: aside ? corner.y + (corner.step - corner.spacing - height) / 2 : root.room - height - Theme.gap
     }
     Feast {

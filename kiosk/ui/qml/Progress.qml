@@ -10,7 +10,7 @@ Row {
     required property int step      // from 0
 
     objectName: "progress"
-    spacing: 8 * Theme.unit
+    spacing: 10 * Theme.unit
     Accessible.role: Accessible.ProgressBar
     Accessible.name: `${step + 1} / ${steps}`
 
@@ -18,8 +18,8 @@ Row {
         model: progress.steps
         Rectangle {
             required property int index
-            width: (index === progress.step ? 26 : 11) * Theme.unit
-            height: 11 * Theme.unit
+            width: (index === progress.step ? 36 : 15) * Theme.unit
+            height: 15 * Theme.unit
             radius: height / 2
             color: index <= progress.step ? Theme.lightSea : Theme.edge
         }

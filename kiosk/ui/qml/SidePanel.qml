@@ -25,6 +25,8 @@ Item {
     // What is to be read in its bubble: while it says nothing, or where it leads, whatever it said last.
     property string aside: ""
     property bool leads: false
+    // Whether that is a cheer.
+    property bool cheers: false
     // Whether a card above it says everything, instead of its bubble.
     property bool hushed: false
     // Where its ears begin, in this item.
@@ -112,6 +114,7 @@ Item {
         speaker: panel.avatar.name
         calls: panel.calls
         grows: panel.grows
+        cheers: panel.cheers && sentence === panel.aside
     }
     Avatar {
         id: face
