@@ -49,7 +49,7 @@ FocusScope {
     readonly property real side: broad ? Math.min(300 * Theme.unit, 0.17 * width) : 0
     // Where the cards leave room for it, the tray has two rows of larger places.
     readonly property bool tall: height - (182 + 70) * Math.max(1, Theme.textSize) * Theme.unit - rows * widest > 70 * Theme.unit
-    readonly property int shelfLines: pairs > (Theme.textSize > 1 ? 12 : 6) ? 2 : 1
+    readonly property int shelfLines: pairs > 12 ? 2 : 1
     readonly property int lines: upright ? shelfLines : tall ? 2 : 1
     // On an upright screen: the line of words above the tray, and a place of the tray. They depend on no height.
     readonly property real wordsLine: (78 * Math.max(1, Theme.textSize) + 20) * Theme.unit + wordsApart
@@ -225,8 +225,9 @@ FocusScope {
          : view.practises ? progress.x + progress.width + Theme.gap : moves.x + moves.width + Theme.gap
         y: view.broad ? table.y : view.upright ? view.wordsAt + view.wordsLine + view.loose : 12 * Theme.unit
         width: view.broad ? view.side - Theme.gap : view.upright ? view.headRight - view.headLeft : Math.max(0, end - x)
-        // It ends with the cards, or as far from the way to the game as it begins from the words.
-        readonly property real end: !view.practises ? view.cardsEnd : (view.skipsBelow ? view.width : skip.x) - Theme.gap
+        // It ends a little before the cards, clear of what shows how far the visit is; or as far from the way to the
+        // game as it begins from the words.
+        readonly property real end: !view.practises ? view.cardsEnd - 2 * Theme.gap : (view.skipsBelow ? view.width : skip.x) - Theme.gap
         height: view.broad ? table.height : view.upright ? view.lines * view.shelfSlot : view.strip - 8 * Theme.unit
         places: view.pairs
         spreads: view.upright
@@ -405,16 +406,14 @@ FocusScope {
             readonly property real cheer: view.wave === 0 || view.wave === 1 ? 0
                 : Math.max(0, 1 - Math.abs(view.wave * (view.rows + view.columns + 1) - row - column - 1) / 1.6)
             Behavior on rest { NumberAnimation { duration: Theme.motion } }
-            // The last pair stays a little forward, and the frames of all others step back.
+            // The last pair stays a little forward, in a rim of light.
             readonly property bool closes: view.last.includes(index)
             property real proud: closes && (settles || !coming.running) ? 1 : 0
             // A pair that was just found keeps its size in its frame until the next move.
             property real fresh: view.latest.includes(index) && (settles || !coming.running) ? 1 : 0
             Behavior on fresh { NumberAnimation { duration: Theme.motion } }
             readonly property real large: Math.max(proud, fresh)
-            property real frame: view.last.length > 0 && !closes ? Theme.past : 1
             Behavior on proud { NumberAnimation { duration: Theme.motion } }
-            Behavior on frame { NumberAnimation { duration: Theme.motion } }
 
             readonly property real turning: face.turn
             readonly property bool turns: turning > 0 && turning < 1
@@ -470,7 +469,7 @@ FocusScope {
                 // By its size: corners that are drawn larger by a scale look ragged.
                 width: (0.9 * parent.width * (1 - place.large) + (view.framed - 0.9 * view.ring * place.proud) * place.large) * (1 + 0.09 * place.cheer)
                 height: width
-                opacity: place.rest * place.frame
+                opacity: place.rest
                 radius: width * 0.12
                 color: Theme.leaf
             }

@@ -32,7 +32,8 @@ QtObject {
     readonly property color touchable: highContrast ? white : Qt.hsla(Math.max(0, accent.hslHue), Math.min(0.38, accent.hslSaturation), 0.92, 1)
     // What lies below things that are put down on it.
     readonly property color shelf: highContrast ? "#FFFFFF" : Qt.tint(paper, Qt.alpha(sand, 0.32))
-    // The outline of a place where nothing lies yet.
+    // A place on it where nothing lies yet, and the outline of a card there.
+    readonly property color hollow: highContrast ? "#FFFFFF" : Qt.tint(paper, Qt.alpha(sand, 0.68))
     readonly property color slot: highContrast ? "#000000" : Qt.darker(sand, 1.25)
     readonly property color ink: highContrast ? "#000000" : "#22313F"
     readonly property color faintInk: highContrast ? "#1A2430" : "#4A5A68"
@@ -45,8 +46,6 @@ QtObject {
     // How much of a card is still to be seen when it is found for good, and while a tap on it would not count.
     readonly property real done: highContrast ? 1 : 0.6
     readonly property real held: highContrast ? 1 : 0.72
-    // And of the frame of a pair that was found before the last one.
-    readonly property real past: highContrast ? 1 : 0.35
 
     readonly property real title: size(76)
     readonly property real pageTitle: size(60)

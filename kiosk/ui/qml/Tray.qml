@@ -56,13 +56,31 @@ Item {
             y: centre.y - tray.slot / 2
             width: tray.spreads ? Math.min(tray.pitch - 14 * Theme.unit, 2.1 * tray.slot) : tray.slot
             height: tray.slot
+            // How far the two cards of a pair lie from its middle, where they lie side by side.
+            readonly property real aside: Math.max(0.05 * tray.slot, Math.min(0.5 * tray.card + 0.03 * tray.slot, (width - tray.card) / 2 - 0.09 * tray.slot))
 
             Rectangle {
+                visible: place.filled
                 anchors { fill: parent; margins: parent.height * 0.07 }
                 radius: height * 0.18
-                color: place.filled ? Theme.leaf : Theme.paper
-                border { color: Theme.slot; width: place.filled ? 0 : 2 * Theme.unit }
-                opacity: place.filled && tray.landed === tray.places && place.index < tray.places - 1 ? Theme.past : 1
+                color: Theme.leaf
+            }
+            // Until then the pale shapes of the two cards, where they will lie.
+            Repeater {
+                model: place.filled ? 0 : 2
+                Rectangle {
+                    required property int index
+                    anchors {
+                        centerIn: parent
+                        horizontalCenterOffset: (index === 0 ? -1 : 1) * (tray.paired ? place.aside : tray.behind)
+                        verticalCenterOffset: tray.paired ? 0 : (index === 0 ? -1 : 1) * tray.behind
+                    }
+                    width: (tray.paired ? 0.96 : 0.95) * tray.card
+                    height: width
+                    radius: 0.11 * tray.card
+                    color: Theme.hollow
+                    border { color: Theme.highContrast ? Theme.slot : Theme.shelf; width: Math.max(1, Theme.unit) }
+                }
             }
             // Two cards side by side; or one on the other, of which only the edge is seen.
             Rectangle {
@@ -81,7 +99,7 @@ Item {
                     readonly property int side: index === 0 ? -1 : 1
                     anchors {
                         centerIn: parent
-                        horizontalCenterOffset: !tray.paired ? tray.behind : side * Math.max(0.05 * tray.slot, Math.min(0.5 * tray.card + 0.03 * tray.slot, (place.width - tray.card) / 2 - 0.09 * tray.slot))
+                        horizontalCenterOffset: !tray.paired ? tray.behind : side * place.aside
                         verticalCenterOffset: tray.paired ? 0 : tray.behind
                     }
                     width: tray.card
