@@ -27,6 +27,8 @@ class Health:
 
     is_ok: bool
     message: str
+    is_used: bool = True
+    """False for what is switched off on purpose."""
 
 
 class SpeechListener(Protocol):

@@ -79,7 +79,7 @@ class Voice(QObject):
     @property
     def health(self) -> Health:
         """Whether sentences are heard, in words for the experimenter."""
-        return Health(is_ok=True, message="silent on purpose")
+        return Health(is_ok=True, message="silent on purpose", is_used=False)
 
     def close(self) -> None:
         """Be silent for good."""

@@ -77,6 +77,9 @@ console-booth = The booth
 ## Health
 
 console-health = How everything is
+console-mark-well = in order
+console-mark-idle = not in use
+console-mark-ill = not well
 console-robot = Robot
 console-robot-none = There is none
 console-robot-absent = none set up
@@ -204,7 +207,7 @@ console-actions = Actions
 console-repeat = Say it again
 console-mute = Turn the sound off
 console-heard = Turn the sound on
-console-stay-paused = Stay paused after closing
+console-stay-paused = Stay paused
 console-break = A break: back in
 console-break-minutes = { $minutes } min
 console-break-end = End the break

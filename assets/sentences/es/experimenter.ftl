@@ -34,7 +34,7 @@ console-keys = Tab y flechas para moverse, Intro para hacer, Esc para cerrar. Tr
 console-all-well = Todo está bien
 console-rest-well = Todo lo demás está bien
 console-session-none = No hay nadie
-console-session-paused = Hay una sesión en curso; espera
+console-session-paused = Sesión en curso; espera
 
 ## The first page
 
@@ -61,8 +61,8 @@ console-shortcut-volume = volumen
 console-shortcut-condition = próxima condición
 console-shortcut-embodiment = robot o avatar
 console-shortcut-quit = salir
-console-names-show = Mostrar los nombres de las condiciones
-console-names-hide = Ocultar los nombres de las condiciones
+console-names-show = Mostrar las condiciones
+console-names-hide = Ocultar las condiciones
 console-test-the-voice = Probar la voz
 console-test-sentence = Buenos días. Si oyes esta frase, la voz funciona.
 console-supervisor = Supervisor
@@ -77,9 +77,12 @@ console-booth = El puesto
 ## Health
 
 console-health = Estado
+console-mark-well = en orden
+console-mark-idle = no se usa
+console-mark-ill = no está bien
 console-robot = Robot
 console-robot-none = No hay
-console-robot-absent = ninguno configurado
+console-robot-absent = sin configurar
 console-avatar = Avatar
 console-voice = Voz
 console-voice-quiet = en silencio a propósito
@@ -204,12 +207,12 @@ console-actions = Acciones
 console-repeat = Repetir la frase
 console-mute = Quitar el sonido
 console-heard = Activar el sonido
-console-stay-paused = Seguir en pausa después de cerrar
+console-stay-paused = Seguir en pausa
 console-break = Un descanso: de vuelta en
 console-break-minutes = { $minutes } min
 console-break-end = Terminar la pausa
 console-abort = Terminar la sesión
-console-abort-then = Para pasar a la siguiente persona
+console-abort-then = Para la siguiente persona
 console-next = Siguiente persona
 console-resume = Reanudar una sesión cortada
 console-resume-one = { $participant } · { $when } · { $stage }

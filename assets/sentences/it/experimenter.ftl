@@ -34,7 +34,7 @@ console-keys = Tab e frecce per spostarsi, Invio per eseguire, Esc per chiudere.
 console-all-well = Tutto bene
 console-rest-well = Tutto il resto va bene
 console-session-none = Non c’è nessuno
-console-session-paused = Una seduta è in corso; attende
+console-session-paused = Seduta in corso; attende
 
 ## The first page
 
@@ -61,8 +61,8 @@ console-shortcut-volume = volume
 console-shortcut-condition = prossima condizione
 console-shortcut-embodiment = robot o avatar
 console-shortcut-quit = esci
-console-names-show = Mostra i nomi delle condizioni
-console-names-hide = Nascondi i nomi delle condizioni
+console-names-show = Mostra le condizioni
+console-names-hide = Nascondi le condizioni
 console-test-the-voice = Prova la voce
 console-test-sentence = Buongiorno. Se senti questa frase, la voce funziona.
 console-supervisor = Supervisore
@@ -77,9 +77,12 @@ console-booth = La postazione
 ## Health
 
 console-health = Stato
+console-mark-well = in ordine
+console-mark-idle = non in uso
+console-mark-ill = non va bene
 console-robot = Robot
 console-robot-none = Non ce n’è
-console-robot-absent = nessuno configurato
+console-robot-absent = non configurato
 console-avatar = Avatar
 console-voice = Voce
 console-voice-quiet = in silenzio di proposito
@@ -91,7 +94,7 @@ console-disk-warn = solo { $free } liberi: fare spazio stasera
 console-disk-refuse = solo { $free } liberi: nessuno può iniziare
 console-disk-unknown = non si sa quanto spazio resta
 console-database = Dati
-console-backup-none = ancora nessuna copia
+console-backup-none = nessuna copia
 console-backup-made = ultima copia { $ago }
 console-backup-failed = l’ultima copia non è riuscita: { $why }
 console-backup-busy = in corso …
@@ -204,12 +207,12 @@ console-actions = Azioni
 console-repeat = Ripeti la frase
 console-mute = Disattiva l’audio
 console-heard = Attiva l’audio
-console-stay-paused = Resta in pausa dopo la chiusura
+console-stay-paused = Resta in pausa
 console-break = Una pausa: di ritorno tra
 console-break-minutes = { $minutes } min
 console-break-end = Termina la pausa
 console-abort = Termina la seduta
-console-abort-then = Per passare alla prossima persona
+console-abort-then = Per la prossima persona
 console-next = Prossima persona
 console-resume = Riprendi una seduta interrotta
 console-resume-one = { $participant } · { $when } · { $stage }

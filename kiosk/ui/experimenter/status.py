@@ -47,6 +47,8 @@ class HealthLine:
     is_ok: bool = True
     remedy: str = ""
     """What the experimenter can do about it, where the message does not say so."""
+    is_used: bool = True
+    """False for what is not set up, or not done yet: it is no fault, but nothing is in order there either."""
 
 
 @dataclass(frozen=True)
@@ -176,7 +178,7 @@ def health_summary(found: tuple[HealthLine, ...], catalogue: Catalogue) -> Healt
 def _robot(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
     name = catalogue.text("console-robot")
     if state.robot is None:
-        return HealthLine(name, catalogue.text("console-robot-absent"))
+        return HealthLine(name, catalogue.text("console-robot-absent"), is_used=False)
     return HealthLine(name, state.robot.message, state.robot.is_ok)
 
 
@@ -188,7 +190,7 @@ def _voice(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
         )
     if state.voice.is_ok and state.pack_changed:
         return HealthLine(name, catalogue.text("console-voice-changed"), is_ok=False)
-    return HealthLine(name, state.voice.message, state.voice.is_ok)
+    return HealthLine(name, state.voice.message, state.voice.is_ok, is_used=state.voice.is_used)
 
 
 def is_pack_changed(pack: tuple[str, str], earlier: Iterable[tuple[str, str]]) -> bool:
@@ -216,7 +218,7 @@ def _database(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
     if state.audit_error:
         return HealthLine(name, state.audit_error, is_ok=False)
     if state.last_backup is None:
-        return HealthLine(name, translate("console-backup-none"))
+        return HealthLine(name, translate("console-backup-none"), is_used=False)
     if state.last_backup.file is None:
         return HealthLine(name, translate("console-backup-failed", why=state.last_backup.why), is_ok=False)
     minutes = max(0, state.clocks.now_ms - state.last_backup.at_ms) // MS_PER_MINUTE
@@ -415,6 +417,7 @@ def _session(session: SnapshotSession, translate: Translate, told: NameCondition
         "status": translate(f"console-status-{session.status.value if session.status else 'running'}"),
         "reason": _reason(session.reason, translate),
         "robot": translate("console-robot-lost") if session.robot_lost else "",
+        "under_way": session.status is None,
         "odd": session.robot_lost or session.status in (Status.ABANDONED, Status.INTERRUPTED, Status.STOPPED),
     }
 

@@ -31,6 +31,7 @@ from kiosk.ui.experimenter.status import (
     shortcut_rows,
     today_rows,
 )
+from kiosk.ui.voice import NoVoice
 from tests.samples import CATALOGUES
 
 STUDY = read_study(Settings())
@@ -154,8 +155,19 @@ def test_the_pin_is_asked_for_before_the_supervisor_that_needs_it() -> None:
     assert names.index("PIN") < names.index("Supervisor")
 
 
-def test_without_a_copy_yet_nothing_is_wrong() -> None:
-    assert told(replace(WELL, last_backup=None))["Database"].is_ok
+@pytest.mark.parametrize(
+    ("state", "name"),
+    [
+        (replace(WELL, robot=None), "Robot"),
+        (replace(WELL, last_backup=None), "Database"),
+        (replace(WELL, voice=NoVoice().health), "Voice"),
+    ],
+)
+def test_what_is_not_in_use_or_not_done_is_no_fault_and_not_in_order_either(state: HealthInputs, name: str) -> None:
+    unused = {line.name for line in told(state).values() if not line.is_used}
+    assert name in unused
+    assert told(state)[name].is_ok
+    assert "Clock" not in unused
 
 
 BEGAN = datetime(2027, 3, 1, 9, tzinfo=UTC)

@@ -1,4 +1,4 @@
-// What can be done at once: what is done all day first, and apart at the foot what ends a session.
+// What can be done at once: what is done all day first and largest, and apart at the foot what ends a session.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -9,61 +9,86 @@ PanelSection {
 
     required property PanelScreen panel
     required property bool wide
+    // What each row of an upright screen has beside its own.
+    property real spread: 0
     readonly property var words: panel.words
     readonly property var choices: panel.choices
-    readonly property real space: apart
-    // How high they are: higher where they have a column of their own.
-    readonly property bool ample: wide && least > 0 && !choices.canBeNext && !(choices.onBreak && choices.underWay) && Theme.textSize <= 1.15
-    readonly property real tall: (ample ? 92 : wide ? 84 : 92) * Theme.unit
-    readonly property real mainTall: (ample ? 120 : wide ? 108 : 104) * Theme.unit
+    // Whole pixels, so that all rows end in line. Side by side, two stand so far apart that neither is touched for the other.
+    readonly property real space: Math.round(apart)
+    readonly property real across: Math.floor(width - 2 * inset)
+    readonly property real gutter: underWay ? Math.round(40 * Theme.unit) : space
+    readonly property real half: Math.floor((across - gutter) / 2)
+    readonly property real edge: (wide ? 24 : 20) * Theme.unit
+    readonly property bool normal: Theme.textSize <= 1.15
 
-    readonly property real lettering: (Theme.textSize > 1.15 ? 1 : wide ? 1.2 : 1.1) * Theme.dense
+    // How high they are: in a column of their own they share what it has.
+    readonly property bool underWay: choices.underWay
+    readonly property bool pausing: choices.onBreak ?? false
+    readonly property int mains: (pausing ? 1 : 0) + (choices.canBeNext ? 1 : 0) + (underWay ? 1 : 0)
+    readonly property int others: (underWay ? 4 : 3) + (breaks.visible ? breaks.rows : 0)
+    readonly property real fixed: frame + (mains + others - 1) * space + lower.words
+    readonly property real share: wide && least > 0 && normal ? (least - fixed) / (others + 1.25 * mains) : 0
+    readonly property real tall: Math.floor(Math.max((wide || panel.health.matters.length > 2 ? 80 : 90) * Theme.unit + spread, Math.min(128 * Theme.unit, share)))
+    readonly property real mainTall: Math.floor((wide ? 1.25 : 1.1) * tall)
+
+    readonly property real lettering: (normal ? wide ? 1.2 : 1.1 : 1) * Theme.dense
 
     title: words["console-actions"]
     apart: (wide ? 12 : 18) * Theme.unit
 
-    // The largest: what alone is pressed all day.
+    // The largest: what is pressed all day.
     component Main: PanelButton {
         least: actions.mainTall
-        width: parent?.width ?? implicitWidth
+        width: actions.across
         font.pixelSize: 1.12 * actions.lettering
     }
-    // Upright two stand in a row; one, where its words need more, or where it would be alone.
     component Action: PanelButton {
-        property bool alone: false
-        readonly property real room: parent?.width ?? Infinity
-        readonly property real each: (room - actions.space) / 2 - 0.5
         least: actions.tall
-        width: actions.wide || alone || implicitWidth > each ? room : each
-        horizontalPadding: 24 * Theme.unit
-        font { pixelSize: actions.lettering; bold: true }
+        horizontalPadding: actions.edge
+        font.pixelSize: actions.lettering
     }
 
-    Flow {
-        width: parent.width
-        spacing: actions.space
-        Main {
-            objectName: "break-end"
-            filled: true
-            visible: actions.choices.onBreak ?? false
-            words: actions.words["console-break-end"]
-            drawing: "M8 5 L19 12 L8 19 Z"
-            onClicked: actions.panel.wish("break", "")
-        }
-        Main {
-            objectName: "action-next"
-            filled: !(actions.choices.onBreak ?? false)
-            visible: actions.choices.canBeNext
-            words: actions.words["console-next"]
-            drawing: "M4 12 H20 M13.5 5.5 L20 12 L13.5 18.5"
-            onClicked: actions.panel.wish("next", "")
-        }
+    Main {
+        objectName: "break-end"
+        filled: true
+        visible: actions.pausing
+        words: actions.words["console-break-end"]
+        drawing: "M8 5 L19 12 L8 19 Z"
+        onClicked: actions.panel.wish("break", "")
+    }
+    Main {
+        objectName: "action-next"
+        filled: !actions.pausing
+        visible: actions.choices.canBeNext
+        words: actions.words["console-next"]
+        drawing: "M4 12 H20 M13.5 5.5 L20 12 L13.5 18.5"
+        onClicked: actions.panel.wish("next", "")
+    }
+    // While a visitor is there, the voice is theirs.
+    Action {
+        objectName: "test-voice"
+        width: actions.across
+        visible: !actions.underWay
+        enabled: !actions.choices.muted
+        words: actions.words["console-test-the-voice"]
+        drawing: "M3.5 4.5 H20.5 V16 H11.5 L7 20.5 V16 H3.5 Z"
+        onClicked: actions.panel.wish("test_voice", "")
+    }
+    // Upright in two columns, unless the words of one need more.
+    Grid {
+        id: pairs
+        readonly property bool fits: [pause, again, backup, mute].every(each => !each.visible || each.implicitWidth <= actions.half)
+        readonly property real each: columns === 1 ? actions.across : actions.half
+        columns: !actions.wide && fits ? 2 : 1
+        columnSpacing: actions.gutter
+        rowSpacing: actions.space
         PanelSwitch {
             id: pause
             objectName: "action-pause"
-            visible: actions.choices.underWay
-            least: actions.tall
-            width: actions.wide || Theme.textSize > 1.15 ? parent.width : (parent.width - actions.space) / 2 - 0.5
+            visible: actions.underWay
+            least: actions.wide ? actions.mainTall : actions.tall
+            width: pairs.each
+            horizontalPadding: actions.edge
             font.pixelSize: actions.lettering
             words: actions.words["console-stay-paused"]
             drawing: "M8.5 5 V19 M15.5 5 V19"
@@ -71,94 +96,102 @@ PanelSection {
             onClicked: actions.panel.wish("pause", "")
         }
         Action {
+            id: again
             objectName: "action-again"
-            visible: actions.choices.underWay
+            visible: actions.underWay
             // As high as what it stands beside.
-            least: actions.wide ? actions.tall : pause.height
+            least: pairs.columns === 1 ? actions.tall : pause.height
+            width: pairs.each
             words: actions.words["console-repeat"]
             drawing: "M19.5 12 A7.5 7.5 0 1 1 16.6 6.1 M17.5 2 V6.8 H12.7"
             onClicked: actions.panel.wish("repeat", "")
         }
-        // While a visitor is there, the voice is theirs.
         Action {
-            objectName: "test-voice"
-            visible: !actions.choices.underWay
-            enabled: !actions.choices.muted
-            words: actions.words["console-test-the-voice"]
-            drawing: "M3.5 4.5 H20.5 V16 H11.5 L7 20.5 V16 H3.5 Z"
-            onClicked: actions.panel.wish("test_voice", "")
-        }
-        Action {
+            id: backup
             objectName: "action-backup"
             enabled: actions.choices.backup === ""
+            width: pairs.each
             words: actions.words["console-backup"] + (enabled ? "" : ": " + actions.choices.backup)
             drawing: "M8.5 8 H20 V21 H8.5 Z M5 16 H4 V3 H15.5 V4.5"
             onClicked: actions.panel.wish("backup", "")
         }
         Action {
+            id: mute
             objectName: "action-mute"
-            alone: !actions.choices.underWay
+            width: pairs.each
             words: actions.choices.muted ? actions.words["console-heard"] : actions.words["console-mute"]
             drawing: "M3 9.5 H7 L12.5 5 V19 L7 14.5 H3 Z " + (actions.choices.muted ? "M16 9 A4.5 4.5 0 0 1 16 15 M18.8 6.2 A8.5 8.5 0 0 1 18.8 17.8" : "M16.5 9.5 L21.5 14.5 M21.5 9.5 L16.5 14.5")
             onClicked: actions.panel.wish("mute", "")
         }
     }
-    Item { width: 1; height: 2 * Theme.unit }
-    PanelChoice {
-        id: breaks
-        width: actions.wide || !actions.choices.underWay ? parent.width : (parent.width - actions.space) / 2 - 0.5
-        action: "break"
-        even: true
-        least: actions.tall
-        size: actions.size
-        // Four of them fit one row of the column in smaller letters only.
-        lettering: actions.wide && options.length > 3 ? Theme.dense : actions.lettering
-        title: actions.words["console-break"]
-        options: actions.choices.breaks ?? []
-        chosen: actions.choices.break ?? ""
-        onPicked: value => actions.panel.wish("break", value)
-    }
     // Apart, at the foot or beside the break: it takes a game from a visitor.
-    Item {
-        visible: actions.choices.underWay && actions.wide
-        width: parent.width
-        height: end.height + then.height + 2 * Theme.gap
-    }
-    Rectangle {
-        parent: actions
-        visible: end.visible
-        x: actions.wide ? end.x : (actions.width - width) / 2
-        y: actions.wide ? then.y - Theme.gap : end.y + end.height - height
-        width: actions.wide ? end.width : 2 * Theme.unit
-        height: actions.wide ? 2 * Theme.unit : breaks.height
-        color: Theme.edge
-    }
-    PlainText {
-        id: then
-        parent: actions
-        visible: end.visible
-        x: end.x
-        y: end.y - height - 8 * Theme.unit
-        width: end.width
-        text: actions.words["console-abort-then"]
-        font.pixelSize: actions.size
-        color: Theme.faintInk
-        horizontalAlignment: Text.AlignLeft
-        wrapMode: Text.Wrap
-    }
-    PanelButton {
-        id: end
-        parent: actions
-        objectName: "action-end"
-        visible: actions.choices.underWay
-        anchors { right: parent.right; bottom: parent.bottom; margins: actions.inset }
-        width: actions.wide ? actions.width - 2 * actions.inset : (actions.width - actions.space) / 2 - actions.inset - 0.5
-        least: actions.tall
-        grave: true
-        horizontalPadding: 24 * Theme.unit
-        font.pixelSize: actions.lettering
-        words: actions.words["console-abort"]
-        drawing: "M12.5 4 H4.5 V20 H12.5 M9.5 12 H21 M16.5 7.5 L21 12 L16.5 16.5"
-        onClicked: actions.panel.wish("abort", "")
+    Grid {
+        id: lower
+        readonly property bool halves: !actions.wide && actions.normal && actions.underWay && breaks.visible
+        readonly property real each: halves ? actions.half : actions.across
+        // How much of its height are words, and the lines between.
+        readonly property real words: topPadding + (breaks.visible ? breaks.heading + breaks.spacing : 0) + (actions.underWay ? end.above : 0)
+        topPadding: (actions.wide && !actions.underWay ? 20 : 8) * Theme.unit
+        columns: halves ? 2 : 1
+        columnSpacing: actions.gutter
+        rowSpacing: actions.space
+        PanelChoice {
+            id: breaks
+            // Four in one row of a column would have smaller letters only.
+            readonly property int rows: Math.ceil(options.length / across)
+            width: lower.each
+            action: "break"
+            even: true
+            across: actions.wide && options.length > 3 ? 2 : options.length
+            between: actions.space
+            least: actions.tall
+            size: actions.size
+            crown: lower.halves ? then.implicitHeight : 0
+            lettering: actions.lettering
+            title: actions.words["console-break"]
+            options: actions.choices.breaks ?? []
+            chosen: actions.choices.break ?? ""
+            onPicked: value => actions.panel.wish("break", value)
+        }
+        Column {
+            id: end
+            readonly property real above: spacing + then.height + (line.visible ? line.height + spacing : 0)
+            spacing: breaks.spacing
+            visible: actions.underWay
+            Item {
+                id: line
+                visible: !lower.halves
+                width: lower.each
+                height: 14 * Theme.unit
+                Rectangle {
+                    anchors.bottom: parent.bottom
+                    width: parent.width
+                    height: 2 * Theme.unit
+                    color: Theme.edge
+                }
+            }
+            PlainText {
+                id: then
+                width: lower.each
+                height: Math.max(implicitHeight, lower.halves ? breaks.heading : 0)
+                verticalAlignment: Text.AlignBottom
+                text: actions.words["console-abort-then"]
+                font.pixelSize: actions.size
+                color: Theme.faintInk
+                horizontalAlignment: Text.AlignLeft
+                wrapMode: Text.Wrap
+            }
+            PanelButton {
+                objectName: "action-end"
+                width: lower.each
+                least: actions.tall
+                grave: true
+                horizontalPadding: actions.edge
+                font.pixelSize: actions.lettering
+                words: actions.words["console-abort"]
+                drawing: "M12.5 4 H4.5 V20 H12.5 M9.5 12 H21 M16.5 7.5 L21 12 L16.5 16.5"
+                onClicked: actions.panel.wish("abort", "")
+            }
+        }
     }
 }

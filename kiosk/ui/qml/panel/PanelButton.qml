@@ -19,6 +19,8 @@ Button {
     property real least: 68 * Theme.unit
     readonly property color tone: grave ? Theme.deepAmber : Theme.sea
     property bool solid: chosen || (filled && enabled)
+    // What lies below its words while it is not solid.
+    property color ground: Theme.paper
     property int alignment: Text.AlignHCenter
     // The lines of a small drawing before its words, on a square of 24; none without.
     property string drawing: ""
@@ -80,7 +82,7 @@ Button {
     }
     background: Rectangle {
         radius: 12 * Theme.unit
-        color: button.solid ? (button.filled && button.hovered ? Theme.lightSea : Theme.sea) : button.down ? Theme.sand : button.hovered ? Theme.white : Theme.paper
+        color: button.solid ? (button.filled && button.hovered ? Theme.lightSea : Theme.sea) : button.down ? Theme.sand : button.hovered ? Theme.white : button.ground
         // What cannot be pressed now has a pale edge.
         border { color: button.enabled ? button.tone : Theme.edge; width: (button.grave ? 3 : 2) * Theme.unit }
         FocusRing {

@@ -19,14 +19,23 @@ Column {
     // How large its title and its answers are written.
     property real size: Theme.dense
     property real lettering: Theme.dense
-    readonly property real each: (width - (options.length - 1) * 9 * Theme.unit) / Math.max(1, options.length) - 0.5
+    // How many stand in a row then, and how far from each other, in whole pixels: the row ends where its neighbours do.
+    property int across: options.length
+    property real between: Math.round(9 * Theme.unit)
+    readonly property real each: Math.floor((width - (across - 1) * between) / Math.max(1, across))
+    // How high its title is at least, which then ends level with one beside it.
+    property real crown: 0
+    readonly property real heading: asked.implicitHeight
     signal picked(string value)
 
     spacing: 8 * Theme.unit
     visible: options.length > 0
 
     PlainText {
+        id: asked
         width: parent.width
+        height: Math.max(implicitHeight, choice.crown)
+        verticalAlignment: Text.AlignBottom
         visible: choice.titled
         text: choice.title
         font.pixelSize: choice.size
@@ -35,11 +44,13 @@ Column {
     }
     Flow {
         width: parent.width
-        spacing: 9 * Theme.unit
+        spacing: choice.between
         Repeater {
             model: choice.options
             delegate: PanelButton {
                 required property var modelData
+                required property int index
+                readonly property real last: Math.floor(choice.width) - (choice.across - 1) * (choice.each + choice.between)
                 objectName: choice.action + "-" + modelData.value
                 words: modelData.label
                 chosen: modelData.value === choice.chosen
@@ -47,7 +58,7 @@ Column {
                 least: choice.least
                 horizontalPadding: (choice.even ? 8 : 18) * Theme.unit
                 font.pixelSize: choice.lettering
-                width: choice.even && implicitWidth <= choice.each ? choice.each : Math.min(Math.max(choice.broad, Math.ceil(implicitWidth)), choice.width)
+                width: choice.even && implicitWidth <= choice.each ? (index % choice.across === choice.across - 1 ? last : choice.each) : Math.min(Math.max(choice.broad, Math.ceil(implicitWidth)), choice.width)
                 Accessible.role: Accessible.RadioButton
                 Accessible.name: `${choice.title} ${words}`
                 onClicked: choice.picked(modelData.value)

@@ -123,6 +123,7 @@ PanelSection {
         parent: counts
         anchors { top: parent.top; right: parent.right; margins: counts.inset; topMargin: 0.8 * Theme.gap }
         objectName: "names"
+        font.pixelSize: Math.max(Theme.dense, 0.95 * counts.size)
         width: Math.min(Math.ceil(implicitWidth), Math.floor(0.6 * counts.width))
         visible: counts.records.cells.length > 0
         words: counts.named ? counts.words["console-names-hide"] : counts.words["console-names-show"]

@@ -9,8 +9,9 @@ PanelSection {
 
     required property PanelScreen panel
     property bool double: false
+    property real spread: 0
     readonly property var words: panel.words
-    readonly property var none: ({ name: words["console-alarms"], message: words["console-alarms-none"], is_ok: true })
+    readonly property var none: ({ name: words["console-alarms"], message: words["console-alarms-none"], is_ok: true, is_used: true })
     readonly property var lines: panel.alarms.length > 0 ? panel.health.lines : [...panel.health.lines, none]
 
     // What a wide screen has left is shared among the lines.
@@ -30,7 +31,7 @@ PanelSection {
         width: parent.width
         columns: health.double ? 2 : 1
         columnSpacing: Theme.gap
-        rowSpacing: health.each > 0 ? 0 : 14 * Theme.unit
+        rowSpacing: health.each > 0 ? 0 : (health.panel.health.matters.length > 2 ? 8 : 14) * Theme.unit + health.spread
         Repeater {
             model: health.lines
             delegate: Item {
@@ -43,6 +44,7 @@ PanelSection {
                     anchors.verticalCenter: health.double ? undefined : parent.verticalCenter
                     width: parent.width
                     line: place.modelData
+                    words: health.words
                     size: health.size
                     named: health.named
                 }

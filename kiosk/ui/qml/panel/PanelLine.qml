@@ -7,13 +7,20 @@ Row {
     id: row
 
     required property var line
+    required property var words
     property real size: Theme.dense
     // How wide its name is at most, so that the words of all lines begin at one place.
     property real named: Math.min(0.29 * width, 6.5 * size)
 
     spacing: 10 * Theme.unit
 
-    PanelMark { id: mark; well: row.line.is_ok; size: row.size }
+    PanelMark {
+        id: mark
+        well: row.line.is_ok
+        idle: !row.line.is_used
+        size: row.size
+        words: row.words[!row.line.is_ok ? "console-mark-ill" : idle ? "console-mark-idle" : "console-mark-well"]
+    }
     PlainText {
         id: name
         width: row.named

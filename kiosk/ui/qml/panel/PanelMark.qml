@@ -1,4 +1,4 @@
-// Whether something is well, told by shape and colour: a disc, or a triangle with its word beside it.
+// How something is, told by shape and colour: a tick, a hollow ring for what is not in use or not done, or a triangle.
 pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Shapes
@@ -8,6 +8,9 @@ Item {
     id: mark
 
     required property bool well
+    property bool idle: false
+    // What it says to those who cannot see it, where no words beside it do.
+    property string words: ""
     property real size: Theme.dense
     property color tone: well ? Theme.sea : Theme.deepAmber
     // As high as a capital, and level with those of the words beside it: drawn, for a letter may come from another font.
@@ -16,19 +19,36 @@ Item {
 
     width: size
     height: letters.height
-    Accessible.ignored: true
+    Accessible.ignored: words === ""
+    Accessible.role: Accessible.Graphic
+    Accessible.name: words
 
     FontMetrics {
         id: letters
         font.pixelSize: mark.size
     }
     Rectangle {
-        visible: mark.well
+        visible: mark.well && mark.idle
         y: mark.above
         width: mark.side
         height: mark.side
         radius: mark.side / 2
-        color: mark.tone
+        color: "transparent"
+        border { color: mark.tone; width: Math.max(2, Math.round(0.11 * mark.size)) }
+    }
+    Shape {
+        visible: mark.well && !mark.idle
+        y: mark.above
+        width: mark.side
+        height: mark.side
+        ShapePath {
+            fillColor: "transparent"
+            strokeColor: mark.tone
+            strokeWidth: 0.16 * mark.size
+            capStyle: ShapePath.RoundCap
+            joinStyle: ShapePath.RoundJoin
+            PathPolyline { path: [Qt.point(0.08 * mark.side, 0.55 * mark.side), Qt.point(0.38 * mark.side, 0.86 * mark.side), Qt.point(0.95 * mark.side, 0.16 * mark.side)] }
+        }
     }
     Shape {
         visible: !mark.well

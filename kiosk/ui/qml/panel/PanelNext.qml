@@ -87,7 +87,7 @@ Item {
             size: next.size
             Repeater {
                 model: next.panel.health.more
-                delegate: PanelLine { required property var modelData; line: modelData; width: parent.width; size: next.size }
+                delegate: PanelLine { required property var modelData; line: modelData; words: next.words; width: parent.width; size: next.size }
             }
         }
     }

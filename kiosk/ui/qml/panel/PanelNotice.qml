@@ -11,9 +11,14 @@ Rectangle {
     readonly property color front: health.well ? Theme.white : Theme.ink
 
     // What to do stands behind what is wrong, in a column of its own, where both fit in one line; otherwise below it.
+    // They are written a little smaller if they fit so.
     readonly property real room: width - 2 * Theme.gap - 1.4 * size
-    readonly property real longest: widest(bold, health.matters.map(matter => said(matter)))
-    readonly property bool beside: longest + 1.5 * Theme.gap + widest(plain, health.matters.map(matter => matter.remedy)) <= room
+    readonly property real whole: widest(bold, health.matters.map(matter => said(matter)))
+    readonly property real both: whole + widest(plain, health.matters.map(matter => matter.remedy))
+    readonly property real fitting: Math.min(1, (room - 1.5 * Theme.gap) / both)
+    readonly property bool beside: fitting >= 0.89
+    readonly property real written: beside && fitting < 1 ? Math.floor(fitting * size) : size
+    readonly property real longest: Math.ceil(whole * written / size) + 2 * Theme.unit
 
     function said(matter: var): string {
         return `${matter.name}: ${matter.message}`
@@ -42,12 +47,10 @@ Rectangle {
         Row {
             visible: notice.health.well
             spacing: 0.4 * notice.size
-            PlainText {
-                text: "✓"
-                width: notice.size
-                font { pixelSize: notice.size; bold: true }
-                color: notice.front
-                Accessible.ignored: true
+            PanelMark {
+                well: true
+                size: notice.size
+                tone: notice.front
             }
             PlainText {
                 width: notice.room
@@ -66,7 +69,7 @@ Rectangle {
                 spacing: 0.4 * notice.size
                 PanelMark {
                     well: false
-                    size: notice.size
+                    size: notice.written
                     tone: notice.front
                 }
                 // A matter's further lines stand below its words, and not below its mark.
@@ -75,7 +78,7 @@ Rectangle {
                     PlainText {
                         width: notice.beside ? notice.longest + 1.5 * Theme.gap : parent.width
                         text: notice.said(matter.modelData)
-                        font { pixelSize: notice.size; bold: true }
+                        font { pixelSize: notice.written; bold: true }
                         color: notice.front
                         wrapMode: Text.Wrap
                     }
@@ -83,7 +86,7 @@ Rectangle {
                         visible: text !== ""
                         width: notice.beside ? notice.room - notice.longest - 1.5 * Theme.gap : parent.width
                         text: matter.modelData.remedy
-                        font.pixelSize: notice.size
+                        font.pixelSize: notice.written
                         color: notice.front
                         wrapMode: Text.Wrap
                     }

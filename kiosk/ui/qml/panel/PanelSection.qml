@@ -17,7 +17,9 @@ Rectangle {
     readonly property real inset: Math.round(1.1 * Theme.gap)
     // How high it is at least, where it ends with another one beside it.
     property real least: 0
-    readonly property real wish: body.height + heading.height + 1.3 * Theme.gap + inset
+    // What it takes beside what stands in it.
+    readonly property real frame: heading.height + 1.3 * Theme.gap + inset
+    readonly property real wish: body.height + frame
 
     // Whole pixels, so that those side by side end in line.
     height: Math.ceil(Math.max(least, wish))
@@ -28,7 +30,7 @@ Rectangle {
     PlainText {
         id: heading
         anchors { top: parent.top; left: parent.left; right: parent.right; margins: section.inset; topMargin: 0.8 * Theme.gap }
-        anchors.rightMargin: section.inset + section.aside
+        anchors.rightMargin: section.inset + section.aside + (section.aside > 0 ? 0.5 * Theme.gap : 0)
         height: Math.max(implicitHeight, section.crown)
         verticalAlignment: Text.AlignVCenter
         text: section.title

@@ -11,7 +11,7 @@ PanelSection {
 
     title: words["console-sessions"]
 
-    PanelEmpty { words: sessions.words["console-sessions-none"]; visible: sessions.records.sessions.length === 0 }
+    PanelEmpty { words: sessions.words["console-sessions-none"]; font.pixelSize: sessions.size; visible: sessions.records.sessions.length === 0 }
     component Field: PanelCell {
         required property real share
         size: sessions.size
@@ -45,7 +45,7 @@ PanelSection {
             required property var modelData
             width: parent.width
             spacing: sessions.step
-            PanelMark { width: sessions.size; well: !row.modelData.odd; size: sessions.size }
+            PanelMark { width: sessions.size; well: !row.modelData.odd; idle: row.modelData.under_way; size: sessions.size }
             Field { share: 0.09; words: row.modelData.participant; strong: true; column: sessions.words["console-sessions-number"] }
             Field { share: 0.16; words: row.modelData.when; column: sessions.words["console-sessions-begun"] }
             Field { share: 0.23; words: row.modelData.condition; column: sessions.words["console-sessions-condition"] }

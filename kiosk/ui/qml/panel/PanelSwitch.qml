@@ -11,8 +11,9 @@ PanelButton {
 
     choosable: true
     chosen: on
-    horizontalPadding: 24 * Theme.unit
     verticalPadding: 4 * Theme.unit
+    ground: Theme.touchable
+    readonly property real between: 0.6 * Theme.gap
     // As wide in both, so that its words stay where they are.
     font.bold: true
     Accessible.role: Accessible.CheckBox
@@ -20,7 +21,7 @@ PanelButton {
     contentItem: Item {
         id: parts
         readonly property real before: bar.sign > 0 ? bar.sign + 0.6 * bar.font.pixelSize : 0
-        implicitWidth: before + letters.implicitWidth + track.width + Theme.gap
+        implicitWidth: before + letters.implicitWidth + track.width + bar.between
         implicitHeight: Math.max(letters.implicitHeight, track.height)
         Drawing {
             visible: bar.drawing !== ""
@@ -34,7 +35,7 @@ PanelButton {
             id: letters
             x: Theme.across(parts.before, width, parts.width)
             y: (parts.height - height) / 2
-            width: parts.width - parts.before - track.width - Theme.gap
+            width: parts.width - parts.before - track.width - bar.between
             text: bar.words
             font: bar.font
             color: bar.front

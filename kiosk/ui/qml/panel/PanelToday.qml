@@ -27,8 +27,11 @@ Item {
 
     // What a wide screen has left is shared among the rows of the counts and of the sessions.
     readonly property int rows: panel.records.cells.length + panel.records.sessions.length
-    readonly property real leftOver: room > 0 && Theme.textSize <= 1.15 ? room - (370 + 45 * rows) * Theme.unit : 0
-    readonly property real airy: 10 * Theme.unit + Math.max(0, Math.min(16 * Theme.unit, leftOver / (rows + 2)))
+    readonly property real leftOver: room > 0 && Theme.textSize <= 1.15 ? room - (395 + 45 * rows) * Theme.unit : 0
+    readonly property real airy: 10 * Theme.unit + Math.max(0, Math.min(16 * Theme.unit, leftOver / (rows + 2)), spread)
+    // On an upright one it is shared among all, as long as there is little to tell.
+    readonly property bool calm: !wide && Theme.textSize <= 1.15 && panel.health.well && panel.alarms.length === 0 && panel.records.resumable.length === 0 && !panel.choices.canBeNext && !(panel.choices.onBreak ?? false)
+    readonly property real spread: calm ? Math.floor(Math.max(0, Math.min(24 * Theme.unit, (seen - first.height - (1190 + 60 * rows) * Theme.unit) / (rows + 9)))) : 0
 
     height: wide ? Math.max(right.height, left.y + left.height, middle.y + middle.height) : middle.y + middle.height
 
@@ -51,6 +54,7 @@ Item {
             wide: today.wide
             size: today.size
             // Beside the others it ends with them, if what stands at its foot is seen then.
+            spread: today.spread
             least: today.wide && today.panel.records.resumable.length === 0 ? Math.min(today.foot, today.seen) : 0
         }
         PanelResume { width: parent.width; panel: today.panel }
@@ -67,6 +71,7 @@ Item {
             size: today.size
             double: !today.wide && Theme.textSize <= 1.15
             least: today.room
+            spread: today.spread
             // Its heading is level with that of the counts beside it.
             crown: today.wide ? counts.crown : 0
         }
@@ -91,7 +96,7 @@ Item {
             width: parent.width
             apart: today.airy
             size: today.size
-            least: today.wide ? Math.floor(today.foot - today.below - counts.height - today.space) : 0
+            least: Math.floor(today.wide ? today.foot - today.below - counts.height - today.space : today.seen - middle.y - y)
             words: today.words
             records: today.panel.records
         }

@@ -15,6 +15,8 @@ FocusScope {
     readonly property real space: Math.round(0.85 * Theme.gap)
     readonly property real edge: Math.round(1.5 * Theme.gap)
     property bool onToday: true
+    // The words of the ways out are as large as those of the actions.
+    readonly property real lettering: (Theme.textSize > 1.15 ? 1 : wide ? 1.2 : 1.1) * Theme.dense
 
     objectName: "panel"
     Keys.onEscapePressed: panel.wish("panel", "")
@@ -27,6 +29,7 @@ FocusScope {
     }
     Item {
         id: head
+        z: 1
         anchors { top: parent.top; left: parent.left; right: parent.right; margins: view.edge; topMargin: view.space }
         height: Math.max(pages.height, close.height + 0.3 * Theme.gap)
         // Where large words leave too little room, as on an upright screen, the title is what can be spared.
@@ -72,6 +75,9 @@ FocusScope {
             objectName: "panel-close"
             anchors { right: parent.right; top: parent.top }
             words: view.words["console-close"]
+            filled: true
+            horizontalPadding: 28 * Theme.unit
+            font.pixelSize: view.lettering
             focus: true
             onClicked: view.panel.wish("panel", "")
         }
@@ -79,6 +85,7 @@ FocusScope {
     // The tabs stand on it.
     Rectangle {
         id: rule
+        z: 1
         anchors { top: head.bottom; left: parent.left; right: parent.right; leftMargin: view.edge; rightMargin: view.edge }
         height: 2 * Theme.unit
         color: Theme.edge
@@ -133,6 +140,15 @@ FocusScope {
             }
         }
     }
+    // Without a graphics card, drawings that are scrolled out of the pane are not cut off by it.
+    Rectangle {
+        anchors { top: parent.top; left: parent.left; right: parent.right; bottom: pane.top; bottomMargin: 2 * Theme.unit }
+        color: Theme.paper
+    }
+    Rectangle {
+        anchors { top: pane.bottom; left: parent.left; right: parent.right; bottom: parent.bottom; topMargin: 2 * Theme.unit }
+        color: Theme.paper
+    }
     Item {
         id: foot
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom; margins: view.edge; bottomMargin: view.space }
@@ -144,7 +160,7 @@ FocusScope {
             text: view.words["console-keys"]
             horizontalAlignment: Text.AlignLeft
             least: 0.75
-            font.pixelSize: Theme.dense
+            font.pixelSize: (view.wide && Theme.textSize <= 1.15 ? 1.1 : 1) * Theme.dense
             color: Theme.faintInk
             wrapMode: Text.Wrap
         }
@@ -156,6 +172,8 @@ FocusScope {
             width: implicitWidth
             visible: view.onToday && view.panel.shortcuts.rows.length > 0
             words: view.words["console-shortcuts"]
+            horizontalPadding: 28 * Theme.unit
+            font.pixelSize: view.lettering
             onClicked: {
                 view.onToday = false
                 second.forceActiveFocus(Qt.OtherFocusReason)
