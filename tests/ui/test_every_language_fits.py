@@ -469,8 +469,7 @@ def test_cards_and_scales_stand_at_the_same_places_on_all_pages_of_four_ratings(
         ends = [[find_item(ground, f"{way}-{item.id}{end}") for way, end in WAYS] for item in page]
         scales = [reduce(QRectF.united, (whole(end) for end in both if end is not None)) for both in ends]
         cards = [find_item(ground, f"item-{item.id}") for item in page]
-        # On an upright card, a statement of one line stands a little nearer to the middle, and so does its scale.
-        heights = [round(scale.y()) if layout.width > layout.height else 0 for scale in scales]
+        heights = [round(scale.y()) for scale in scales]
         edges = [(round(scale.x()), round(scale.width()), round(scale.height())) for scale in scales]
         places.add((tuple(round(whole(card).y()) for card in cards if card), tuple(heights), tuple(edges)))
     screens.avatar.leave(away=False)

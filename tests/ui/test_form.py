@@ -431,7 +431,7 @@ def test_the_keys_on_the_screen_come_for_a_touch_and_not_for_a_mouse(booth: Boot
     assert item_centre(booth.item("number-alone")) == place
 
 
-def test_five_options_of_a_wide_page_stand_in_thirds_and_leave_no_empty_place(
+def test_the_options_of_a_wide_page_stand_in_two_columns_that_all_its_questions_share(
     make_booth: MakeBooth, qtbot: QtBot
 ) -> None:
     booth = make_booth()
@@ -439,13 +439,13 @@ def test_five_options_of_a_wide_page_stand_in_thirds_and_leave_no_empty_place(
     window.resize(1920, 1080)
     qtbot.waitUntil(lambda: window.contentItem().width() == 1920)
     ask(booth, *Questionnaire.read(ASSETS / "questionnaires" / "about-you.toml").items)
-    options = [booth.item(f"option-robots-{name}") for name in ("none", "stories", "fairs", "owns", "works")]
-    assert [option.y() == options[0].y() for option in options] == [True] * 3 + [False] * 2
-    gap, end = options[1].x() - options[0].width(), options[0].parentItem().width()
-    assert [option.x() for option in options[3:]] == [options[0].x(), options[2].x()]
-    assert [round(option.x() + option.width()) for option in options[1:]] == [
-        round(place) for place in (options[2].x() - gap, end, options[2].x() - gap, end)
-    ]
+    genders = [booth.item(f"option-gender-{name}") for name in ("woman", "man", "another", "not_said")]
+    robots = [booth.item(f"option-robots-{name}") for name in ("none", "stories", "fairs", "owns", "works")]
+    left, right = ((option.x(), option.width()) for option in genders[:2])
+    assert left[1] == right[1]
+    assert {(option.x(), option.width()) for option in (genders[2], *robots[::2])} == {left}
+    assert {(option.x(), option.width()) for option in (genders[3], *robots[1::2])} == {right}
+    assert len({option.height() for option in (*genders, *robots)}) == 1
 
 
 def test_an_upright_screen_s_keys_take_the_helper_s_place(make_booth: MakeBooth, qtbot: QtBot) -> None:

@@ -109,9 +109,11 @@ PageFrame {
         const two = 2 * 1.37 * Theme.size(38), card = two + 1.37 * Theme.size(30) + (Theme.textSize > 1 ? 194 : 202) * Theme.unit
         return rated && form.items.length * card <= room - lead ? two : 0
     }
-    readonly property real spread: (dense || tight ? 8 : 12) * Theme.unit
-    // How far below the line of the pages the first card begins.
-    readonly property real lead: upright && besides && Theme.textSize <= 1.15 ? 28 * Theme.unit : 0
+    readonly property real spread: (dense || tight ? 8 : tiles !== null ? 16 : 12) * Theme.unit
+    // Whether a line over the page tells which page it is.
+    readonly property bool lined: upright && besides
+    // How far below it the first card begins.
+    readonly property real lead: lined && Theme.textSize <= 1.15 ? 28 * Theme.unit : 0
     // Whether there is little height for what stands on the page.
     readonly property bool tight: room < 720 * Theme.unit
 
@@ -120,15 +122,13 @@ PageFrame {
         && form.items.every(item => ["integer", "single", "text"].includes(item.kind) && !item.exempts)
 
     // How large the options of such a page are where all stand in columns, and how high; null where they do not fit so.
-    // Five stand in thirds where they can.
     readonly property var tiles: {
         if (!calm || upright || alone || mirrored)
             return null
-        for (const thirds of [true, false])
-            for (const size of [34, 33, 32, 31, 30, 29].map(Theme.size))
-                for (const height of [88, 76])
-                    if (form.items.every(item => tiled(item, thirds, size)) && tiledHeight(thirds, height) <= room)
-                        return {size, height: height * Theme.unit}
+        for (const size of [34, 33, 32, 31, 30, 29].map(Theme.size))
+            for (const height of [88, 84, 80, 78, 76, 72, 68])
+                if (form.items.every(item => tiled(item, size)) && tiledHeight(height) - 16 * Theme.unit <= room)
+                    return {size, height: height * Theme.unit}
         return null
     }
     readonly property real asking: Theme.size(36)
@@ -136,32 +136,22 @@ PageFrame {
         id: thin
         font.pixelSize: 100
     }
-    function odd(item: var): bool {
-        return item.kind === "single" && item.options.length > 4 && item.options.length % 2 === 1
-    }
-    // Whether all of its options have room in halves of the card, or else three of them in thirds, and in each row after
-    // that one in a third and one in two.
-    function tiled(item: var, thirds: bool, size: real): bool {
+    // Whether all of its options have room in halves of the card.
+    function tiled(item: var, size: real): bool {
         if (item.kind === "integer")
             return true
         if (item.kind !== "single")
             return false
-        const around = 79 * Theme.unit, gap = 12 * Theme.unit
-        const half = (inner - gap) / 2 - around, third = (inner - 2 * gap) / 3 - around, two = 2 * third + gap + around
+        const half = (inner - 12 * Theme.unit) / 2 - 79 * Theme.unit
         // Small letters are set on whole pixels, and take a little more.
-        const sizes = item.options.map(option => 1.01 * thin.advanceWidth(option.text) * size / 100)
-        if (!thirds || !odd(item))
-            return sizes.every(wide => wide <= half)
-        const first = sizes.filter((_, at) => at > 2 && at % 2 === 1), second = sizes.filter((_, at) => at > 2 && at % 2 === 0)
-        const within = (some, most) => some.every(wide => wide <= most)
-        return within(sizes.slice(0, 3), third) && (within(first, two) && within(second, third) || within(first, third) && within(second, two))
+        return item.options.every(option => 1.01 * thin.advanceWidth(option.text) * size / 100 <= half)
     }
-    function tiledHeight(thirds: bool, height: real): real {
+    function tiledHeight(height: real): real {
         let tall = 0
         for (const item of form.items) {
             const lines = Math.ceil(letters.advanceWidth(item.text) * asking / 100 / inner)
-            const rows = Math.ceil(((item.options?.length ?? 0) - (thirds && odd(item) ? 1 : 0)) / 2)
-            tall += form.hidden.includes(item.id) ? 0 : item.kind === "integer" ? 132 * Theme.unit
+            const rows = Math.ceil((item.options?.length ?? 0) / 2)
+            tall += form.hidden.includes(item.id) ? 0 : item.kind === "integer" ? 124 * Theme.unit
                 : lines * 1.37 * asking + (48 + (height + 12) * rows) * Theme.unit
         }
         return tall
@@ -294,8 +284,8 @@ PageFrame {
     }
     // The same as a line of as many parts, over an upright page. The part of this page is the darkest and thickest.
     Row {
-        visible: view.besides && view.upright
-        y: -0.83 * Theme.gap
+        visible: view.lined
+        y: -0.5 * Theme.gap
         width: view.column
         spacing: 8 * Theme.unit
         Repeater {
@@ -347,7 +337,7 @@ PageFrame {
                 let sum = 0
                 for (let i = 0; i < boxes.count; i++) {
                     const box = boxes.itemAt(i) as FormItem
-                    sum += box?.there ? box.plain + (view.questionHeight > 0 || view.tiles !== null ? 24 : 30) * Theme.unit : 0
+                    sum += box?.there ? box.plain + (view.tiles !== null ? 16 : view.questionHeight > 0 ? 24 : 30) * Theme.unit : 0
                 }
                 return sum
             }

@@ -221,6 +221,7 @@ Window {
             shown: root.kiosk.screen === "form"
             property bool keysBelow: false
             property bool keysBeside: false
+            property bool lined: false
             x: -stage.x
             y: -stage.y
             width: root.width
@@ -244,6 +245,7 @@ Window {
                 }
                 Binding { target: formPage; property: "keysBelow"; value: formView.keysBelow }
                 Binding { target: formPage; property: "keysBeside"; value: formView.keysBeside }
+                Binding { target: formPage; property: "lined"; value: formView.lined }
             }
         }
         Page {
@@ -419,7 +421,8 @@ Window {
     Progress {
         steps: root.kiosk.steps
         step: root.kiosk.step
-        visible: corner.visible && root.kiosk.step >= 0
+        // Not below a line of another number of parts.
+        visible: corner.visible && root.kiosk.step >= 0 && !(formPage.visible && formPage.lined)
         opacity: corner.opacity
         readonly property bool aside: root.wide && !root.whole
         // Beside the place of the button that comes and goes, so that they stay where they are.

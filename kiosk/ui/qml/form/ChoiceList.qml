@@ -73,18 +73,8 @@ Flow {
         const wishes = []
         for (let i = 0; i < buttons.count; i++)
             wishes.push((buttons.itemAt(i) as Choosable)?.implicitWidth ?? 0)
-        if (paired > 0) {
-            // An odd number stands in thirds, where they fit: three in the first row, and in each other one an answer
-            // that takes two of them. So no place is empty, and all rows have the same edges.
-            const third = Math.floor((width - 2 * gridGap) / 3), last = Math.floor(width - 2 * gridGap) - 2 * third
-            const rest = wishes.slice(3).filter((_, at) => at % 2 === 0).map((wish, at) => [wish, wishes[2 * at + 4]])
-            const three = wishes.length > 3 && wishes.length % 2 === 1 && wishes.slice(0, 3).every(wish => wish <= third)
-            if (three && rest.every(row => row[1] <= last))
-                return wishes.map((_, at) => at === 2 ? last : at < 2 ? third : at % 2 === 1 ? 2 * third + gridGap : last)
-            if (three && rest.every(row => row[0] <= third))
-                return wishes.map((_, at) => at === 2 ? last : at < 2 || at % 2 === 1 ? third : third + gridGap + last)
+        if (paired > 0)
             return wishes.map(() => Math.floor((width - gridGap) / 2))
-        }
         // As many rows as they would take side by side, or one less than in columns of their own.
         let most = 1, end = -packed
         for (const wish of wishes) {

@@ -54,9 +54,9 @@ Item {
     // How high it is without that, and how much can be added.
     readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asked.asks + (way.active ? usualSpacing + way.height : 0)) + 2 * usualMargin
     readonly property real addable: alone || beside ? 0 : 32 * Theme.unit
-    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : questionHeight > 0 ? Theme.textSize > 1 ? 16 : 32 : airy ? 22 : calm ? 14 : 8) * Theme.unit
+    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : questionHeight > 0 ? Theme.textSize > 1 ? 16 : 32 : airy ? 22 : paired > 0 ? 12 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
-    readonly property real usualMargin: alone ? 0 : own ? Math.max(10 * Theme.unit, rowMargin - taken / 2) : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : questionHeight > 0 ? 12 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
+    readonly property real usualMargin: alone ? 0 : own ? Math.max(10 * Theme.unit, rowMargin - taken / 2) : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : questionHeight > 0 ? 12 : airy ? 26 : paired > 0 ? inline ? 11 : 16 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
     readonly property real taken: flank ? Math.max(0, told.height - rowHeight) : 0
     // Letters have some air above them already; what stands below them does not.
@@ -123,8 +123,6 @@ Item {
             width: parent.width
             // How high the question is, or the place that is kept for it.
             readonly property real asks: Math.max(told.height, box.questionHeight)
-            // What a shorter question leaves of it: as much goes above it, below it and below its scale.
-            readonly property real spared: (asks - told.height) / 3
             // Where the middle of a row is: that of the points, and not of words above them.
             readonly property real scaled: (way.item as PointScale)?.size ?? (way.item as SliderScale)?.rail ?? 0
             // How high the words are that head the points of a table.
@@ -137,7 +135,7 @@ Item {
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.questionHeight > 0 ? content.spacing / 4 + asked.spared : 0
+                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.questionHeight > 0 ? content.spacing / 4 + (asked.asks - height) / 2 : 0
                 width: box.beside ? box.textWidth : box.inline ? asked.width - 470 * Theme.unit : asked.width
                 spacing: box.inline ? 0 : content.spacing
                 Balanced {
@@ -157,13 +155,13 @@ Item {
                     // while bindings are worked out.
                     property point end
                     property bool roomy: false
-                    readonly property real sign: 1.3 * font.pixelSize
+                    readonly property real sign: 70 * Theme.unit
                     onLineLaidOut: line => {
                         if (box.item.kind !== "slider" || !line.isLast)
                             return
                         const at = line.implicitWidth + 0.5 * Theme.gap
                         roomy = at + sign <= width
-                        end = Qt.point(Theme.across(at, sign, width), line.y + (line.height - sign) / 2)
+                        end = Qt.point(Theme.across(at, sign, width), line.y + Math.max((line.height - sign) / 2, line.height - 0.79 * sign))
                     }
                     // At the end of the words that say so, and not at the line: there it would favour an answer.
                     TouchSign {
@@ -198,7 +196,7 @@ Item {
                 id: way
                 readonly property real room: box.beside ? box.scaleWidth : asked.width
                 x: Theme.across(box.beside ? asked.width - room : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.flank ? asked.middle - box.flank.point / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : asked.asks + content.spacing - asked.spared
+                y: box.flank ? asked.middle - box.flank.point / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : asked.asks + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null

@@ -3,6 +3,7 @@
 pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Controls.Basic
+import QtQuick.Shapes
 import ".."
 
 Item {
@@ -48,9 +49,8 @@ Item {
     PlainText {
         id: lower
         y: scale.below ? slider.height + scale.apart : (scale.height - height) / 2
-        // Below the ends of the line, and not at the edge of what is around it.
-        x: Theme.across(scale.below ? groove.inset : 0, width, scale.width)
-        width: scale.below ? slider.width / 2 - Theme.gap - groove.inset : scale.leftRoom - Theme.gap
+        x: Theme.across(0, width, scale.width)
+        width: scale.below ? slider.width / 2 - Theme.gap : scale.leftRoom - Theme.gap
         text: scale.leftEnd
         horizontalAlignment: scale.flank ? Text.AlignRight : Text.AlignLeft
         lineHeight: scale.flank ? 0.9 : 1
@@ -61,7 +61,7 @@ Item {
     PlainText {
         id: upper
         y: scale.below ? lower.y : (scale.height - height) / 2
-        x: Theme.across(scale.below ? slider.width - groove.inset - width : scale.leftRoom + slider.width + scale.rightRoom - width, width, scale.width)
+        x: Theme.across(scale.below ? slider.width - width : scale.leftRoom + slider.width + scale.rightRoom - width, width, scale.width)
         width: scale.below ? lower.width : scale.rightRoom - Theme.gap
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
@@ -87,7 +87,8 @@ Item {
         width: scale.alone ? Math.min(900 * Theme.unit, scale.width) : scale.width - scale.leftRoom - scale.rightRoom
         height: scale.rail
         padding: 0
-        leftPadding: (scale.rail - scale.thickness) / 2
+        // With room for the signs at its ends.
+        leftPadding: (scale.rail - scale.thickness) / 2 + 20 * Theme.unit
         rightPadding: leftPadding
         from: scale.lowest
         to: scale.highest
@@ -125,26 +126,36 @@ Item {
             // Where the middle of the handle can be.
             readonly property real inset: slider.leftPadding + scale.thickness / 2
             readonly property real span: slider.width - 2 * inset
-            // The line itself: without it this would look like a field to type in.
+            // The line itself: empty, as a mark on it would draw answers.
             Rectangle {
-                x: groove.inset
-                y: (scale.rail - height) / 2
-                width: groove.span
-                height: 8 * Theme.unit
-                color: Theme.sea
+                id: track
+                anchors.centerIn: parent
+                width: groove.span + height
+                height: Math.min(34 * Theme.unit, 0.4 * scale.rail)
+                radius: height / 2
+                color: Theme.white
+                border { color: Theme.sea; width: 3 * Theme.unit }
             }
-            // A tenth of the way each, or a step where there are fewer. All are alike: a longer one would look chosen.
+            // It slides both ways, from no place in particular.
             Repeater {
-                id: ticks
-                model: Math.min(10, scale.range) + 1
-                Rectangle {
-                    required property int index
-                    x: groove.inset + index / (ticks.model - 1) * groove.span - width / 2
-                    y: (scale.rail - height) / 2
-                    width: 6 * Theme.unit
-                    height: 0.4 * scale.rail
-                    radius: width / 2
-                    color: Theme.sea
+                model: [-1, 1]
+                ClippedShape {
+                    id: chevron
+                    required property int modelData
+                    width: 14 * Theme.unit
+                    height: 2 * width
+                    x: modelData < 0 ? 0.56 * track.x - width / 2 : groove.width - 0.56 * track.x - width / 2
+                    y: (groove.height - height) / 2
+                    ShapePath {
+                        strokeColor: Theme.sea
+                        strokeWidth: 5 * Theme.unit
+                        capStyle: ShapePath.RoundCap
+                        joinStyle: ShapePath.RoundJoin
+                        fillColor: "transparent"
+                        startX: chevron.modelData < 0 ? chevron.width : 0; startY: 0
+                        PathLine { x: chevron.modelData < 0 ? 0 : chevron.width; y: chevron.height / 2 }
+                        PathLine { x: chevron.modelData < 0 ? chevron.width : 0; y: chevron.height }
+                    }
                 }
             }
             FocusRing {

@@ -13,7 +13,7 @@ ClippedShape {
     height: size
     ShapePath {
         strokeColor: Theme.sea
-        strokeWidth: 2 * sign.part
+        strokeWidth: 1.7 * sign.part
         capStyle: ShapePath.RoundCap
         joinStyle: ShapePath.RoundJoin
         fillColor: "transparent"
