@@ -64,7 +64,7 @@ PageFrame {
             PlainText {
                 anchors.verticalCenter: parent.verticalCenter
                 text: figure.value
-                font { pixelSize: view.roomy ? Theme.size(60) : Theme.heading; bold: true }
+                font { pixelSize: view.roomy ? Theme.size(60) : Theme.textSize <= 1.15 ? Theme.size(52) : Theme.heading; bold: true }
                 color: Theme.sea
                 Accessible.ignored: true
             }
@@ -75,7 +75,7 @@ PageFrame {
             text: figure.label
             horizontalAlignment: Text.AlignHCenter
             wrapMode: Text.Wrap
-            font.pixelSize: view.roomy ? Theme.reading : Theme.small
+            font.pixelSize: Theme.textSize <= 1.15 ? Theme.reading : Theme.small
             color: Theme.faintInk
             Accessible.role: Accessible.StaticText
             Accessible.name: text + ": " + figure.spoken

@@ -54,7 +54,7 @@ Item {
             readonly property point centre: tray.middle(index)
             x: centre.x - width / 2
             y: centre.y - tray.slot / 2
-            width: tray.spreads ? Math.min(tray.pitch - 14 * Theme.unit, 2.1 * tray.slot) : tray.slot
+            width: tray.paired ? Math.min(tray.pitch - 14 * Theme.unit, 2.1 * tray.slot) : tray.slot
             height: tray.slot
             // How far the two cards of a pair lie from its middle, where they lie side by side.
             readonly property real aside: Math.max(0.05 * tray.slot, Math.min(0.5 * tray.card + 0.03 * tray.slot, (width - tray.card) / 2 - 0.09 * tray.slot))
