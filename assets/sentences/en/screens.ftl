@@ -173,10 +173,11 @@ keyboard-signs = Signs
 ## Debrief
 
 debrief-take-home = To take home: photograph this card
+debrief-take-home-scan = To take home: scan or photograph this card
 debrief-code = Your code
-debrief-scan-letter = Scan: a message to us with your code, to be sent
-debrief-scan-summary = Scan: your code, and what we study
-debrief-scan = Scan: your code
+debrief-scan-letter = A message to send us
+debrief-scan-summary = Your code and our study
+debrief-scan = Your code, to scan
 debrief-withdraw-by-mail = To have your data deleted, send this code to { $contact }
 debrief-withdraw-here = To have your data deleted, tell this code to the people at this table.
 debrief-return = With this code you can come back another day.

@@ -174,10 +174,11 @@ keyboard-signs = Signos
 ## Debrief
 
 debrief-take-home = Para llevar a casa: haz una foto de esta tarjeta
+debrief-take-home-scan = Para llevar a casa: escanea o fotografía esta tarjeta
 debrief-code = Tu código
-debrief-scan-letter = Escanea: un mensaje para nosotros con tu código, para enviar
-debrief-scan-summary = Escanea: tu código, y qué estudiamos
-debrief-scan = Escanea: tu código
+debrief-scan-letter = Un mensaje para nosotros
+debrief-scan-summary = Tu código y el estudio
+debrief-scan = Tu código para escanear
 debrief-withdraw-by-mail = Para que borremos tus datos, envía este código a { $contact }
 debrief-withdraw-here = Para que borremos tus datos, di este código a las personas de esta mesa.
 debrief-return = Con este código puedes volver otro día.

@@ -178,10 +178,11 @@ keyboard-signs = Segni
 ## Debrief
 
 debrief-take-home = Da portare a casa: fotografa questa scheda
+debrief-take-home-scan = Da portare a casa: inquadra o fotografa questa scheda
 debrief-code = Il tuo codice
-debrief-scan-letter = Inquadra: un messaggio per noi con il tuo codice, da inviare
-debrief-scan-summary = Inquadra: il tuo codice, e che cosa studiamo
-debrief-scan = Inquadra: il tuo codice
+debrief-scan-letter = Un messaggio per noi
+debrief-scan-summary = Il codice e lo studio
+debrief-scan = Il codice da inquadrare
 debrief-withdraw-by-mail = Per far cancellare i tuoi dati, manda questo codice a { $contact }
 debrief-withdraw-here = Per far cancellare i tuoi dati, di' questo codice alle persone a questo tavolo.
 debrief-return = Con questo codice puoi tornare un altro giorno.

@@ -30,17 +30,16 @@ PageFrame {
         font.pixelSize: 100
     }
     readonly property real size: [50, 46, 42, 38].map(Theme.size).find(size => fits(size)) ?? Theme.size(36)
-    // Beside the helper each line is a card with a large drawing, where the page has room for that.
+    // Beside the helper each line has a large drawing, where the page has room for that. Nothing is around it: it is no button.
     readonly property bool upright: width < height
-    readonly property bool framed: (upright ? Theme.textSize <= 1.15 : aside !== "") && read.every(line => line.sign !== "") && framedSize > 0
-    readonly property real framedSize: (upright ? [52, 50, 48, 46, 44, 42, 40, 38, 36] : [44, 42, 40, 38, 36]).map(Theme.size).find(size => fitsFramed(size)) ?? 0
-    // The cards are as high as each other, and take the page; their drawings are as large as that leaves.
-    readonly property real cardHigh: Math.min((upright ? 400 : 260) * Theme.unit, (0.98 * room - (read.length - 1) * Theme.gap) / Math.max(1, read.length))
-    readonly property real badge: Math.min((upright ? 150 : 168) * Theme.unit, 0.74 * cardHigh)
-    readonly property real margin: Math.min(1.5 * Theme.gap, 0.2 * cardHigh)
-    function fitsFramed(size: real): bool {
+    readonly property bool airy: (upright ? Theme.textSize <= 1.15 : aside !== "") && read.every(line => line.sign !== "") && airySize > 0
+    readonly property real airySize: (upright ? [42, 40, 38, 36] : [46, 44, 42, 40, 38, 36]).map(Theme.size).find(size => fitsAiry(size)) ?? 0
+    // The rows are as high as each other, and take the page; their drawings are as large as that leaves.
+    readonly property real rowHigh: Math.min((upright ? 400 : 260) * Theme.unit, (0.98 * room - (read.length - 1) * Theme.gap) / Math.max(1, read.length))
+    readonly property real badge: Math.min((upright ? 176 : 160) * Theme.unit, 0.9 * rowHigh)
+    function fitsAiry(size: real): bool {
         return badge >= 80 * Theme.unit && read.every(line => Math.ceil(letters.advanceWidth(line.text) * size / 100
-            / ((column - badge - 2 * margin - Theme.gap) * 0.94)) * 1.5 * size + 0.16 * cardHigh <= cardHigh)
+            / ((column - badge - 1.5 * Theme.gap) * 0.94)) * 1.5 * size <= rowHigh)
     }
     function fits(size: real): bool {
         return tall(size) + read.length * close <= 0.92 * room
@@ -53,35 +52,31 @@ PageFrame {
 
     ScrollPane {
         id: pane
-        y: view.framed ? 0 : view.sink(height)
+        y: view.airy ? 0 : view.sink(height)
         width: parent?.width ?? 0
         room: view.room
         more: view.words["scroll-more"]
         // Further apart where the page has room for it.
-        spacing: view.framed ? Theme.gap : Math.max(view.close, Math.min(3 * Theme.gap, (0.92 * view.room - view.tall(view.size)) / Math.max(1, view.read.length)))
+        spacing: view.airy ? Theme.gap : Math.max(view.close, Math.min(3 * Theme.gap, (0.92 * view.room - view.tall(view.size)) / Math.max(1, view.read.length)))
         Repeater {
             model: view.read
-            Rectangle {
-                id: card
+            Item {
+                id: row
                 required property int index
                 required property var modelData
                 width: parent?.width ?? 0
-                height: view.framed ? view.cardHigh : line.height
-                radius: Theme.radius
-                color: view.framed ? Theme.white : "transparent"
-                border { color: Theme.edge; width: view.framed ? 3 * Theme.unit : 0 }
+                height: view.airy ? view.rowHigh : line.height
                 SignedLine {
                     id: line
-                    x: view.framed ? view.margin : 0
-                    y: (card.height - height) / 2
-                    width: card.width - 2 * x
-                    text: card.modelData.text
-                    sign: card.modelData.sign
+                    y: (row.height - height) / 2
+                    width: row.width
+                    text: row.modelData.text
+                    sign: row.modelData.sign
                     // What it takes of the visitor, by which they decide.
-                    strong: card.index > 0 && view.aside === "" && card.index === view.read.length - 1
-                    size: view.framed ? view.framedSize : view.size
-                    badge: view.framed ? view.badge : 2.5 * size
-                    centred: view.framed
+                    strong: row.index > 0 && view.aside === "" && row.index === view.read.length - 1
+                    size: view.airy ? view.airySize : view.size
+                    badge: view.airy ? view.badge : 2.5 * size
+                    centred: view.airy
                 }
             }
         }

@@ -78,7 +78,7 @@ PageFrame {
             // What there is to tick stands apart from what is read, as far as the page has room.
             spacing: Math.max(0.5 * Theme.gap, Math.min((view.width < view.height ? 3.4 : 2.2) * Theme.gap, room - (view.short ? points.height : sheet.height) - boxes.height))
 
-            Column {
+            Grid {
                 id: points
                 visible: view.short
                 width: pane.width
@@ -86,11 +86,14 @@ PageFrame {
                 readonly property bool airy: Theme.textSize <= 1.15 && (view.width < view.height
                     || (view.accompanied && 95 * view.read.length + 140 * view.consent.purposes.length + 85 <= pane.room / Theme.unit))
                 spacing: (airy ? 1.2 : 0.6) * Theme.gap
+                // Two stand beside each other, which leaves height to what there is to tick.
+                columns: airy && view.width > view.height && view.read.length === 2 ? 2 : 1
+                columnSpacing: 2 * Theme.gap
                 Repeater {
                     model: view.short ? view.read : []
                     SignedLine {
                         required property var modelData
-                        width: parent?.width ?? 0
+                        width: (points.width - (points.columns - 1) * points.columnSpacing) / points.columns
                         text: modelData.text
                         sign: modelData.sign
                         size: points.airy ? Theme.size(view.width < view.height ? 38 : 34) : Theme.body
@@ -147,9 +150,9 @@ PageFrame {
                     let free = pane.room - points.height - 0.6 * Theme.gap - waits.height
                     for (let i = 0; i < purposes.count; i++)
                         free -= ((purposes.itemAt(i) as Purpose)?.bare ?? 0) + spacing
-                    return Math.max(0, Math.min((view.width < view.height ? 0.8 : 0.5) * Theme.gap, free))
+                    return Math.max(0, Math.min((points.columns > 1 || view.width < view.height ? 0.8 : 0.5) * Theme.gap, free))
                 }
-                spacing: (points.airy && view.short ? (view.width < view.height ? 1.1 : 0.67) : 0.5) * Theme.gap
+                spacing: (points.airy && view.short ? (view.width < view.height ? 1.1 : points.columns > 1 ? 0.9 : 0.67) : 0.5) * Theme.gap
                 // What is still to be ticked, or that nothing is.
                 PlainText {
                     id: waits

@@ -11,7 +11,7 @@ PageFrame {
     required property string labName
 
     // As much of the height as the text leaves, so that a page that fits does not scroll.
-    readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min((signed && width < height ? most : paired ? 310 : 350) * Theme.unit, room - texts.height - keepsake.crown - 2 * pad - 2 * rim - (width < height ? 1.1 : 1) * Theme.gap))
+    readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min((signed && width < height ? most : paired ? 310 : 350) * Theme.unit, room - texts.height - keepsake.crown - keepsake.under - 2 * pad - 2 * rim - (width < height ? 1.1 : 1) * Theme.gap))
     // How large the code may be on an upright page, where the words beside it have to find room.
     readonly property real most: width < height && fits(Theme.size(34), noted, apart, 400) ? 400 : 340
     // How far the white around the code reaches beyond its own frame, for round corners.
@@ -35,16 +35,19 @@ PageFrame {
         }, [[]])
     }
     readonly property real pairedSize: !accompanied || width <= height || read.length < 3 || read[0].sign === "" ? 0
-        : [35, 34, 33, 32].map(Theme.size).find(size => measuredRows.every(row => tallest(row, size) <= 3)
-            && stacked(size) + (rows.length - 1) * 1.1 * Theme.gap + 385 * Theme.unit <= room) ?? 0
+        : [36, 35, 34, 33, 32].map(Theme.size).find(size => measuredRows.every(row => tallest(row, size) <= 3)
+            && stacked(size) + (rows.length - 1) * 1.34 * Theme.gap + 345 * Theme.unit <= room) ?? 0
     readonly property bool pairable: pairedSize > 0
+    // Two beside each other are cards, with this much around what they say.
+    readonly property real inset: 0.75 * Theme.gap
+    readonly property real insetAcross: Theme.gap
     // How many lines has the one of this row that has most of them, and how high all rows are.
     function tallest(row: var, size: real): int {
-        const width = row.length > 1 ? (column - 2 * Theme.gap) / 2 : column
+        const width = row.length > 1 ? (column - Theme.gap) / 2 - 2 * insetAcross : column
         return Math.max(...row.map(widths => broken(widths, size, width - 2.5 * size - Theme.gap)))
     }
     function stacked(size: real): real {
-        return measuredRows.reduce((sum, row) => sum + Math.max(2.5 * size, tallest(row, size) * (leading + 0.06) * Math.ceil(1.37 * size)), 0)
+        return measuredRows.reduce((sum, row) => sum + (row.length > 1 ? 2 * inset : 0) + Math.max(2.5 * size, tallest(row, size) * (leading + 0.06) * Math.ceil(1.37 * size)), 0)
     }
     readonly property bool paired: signed && pairable
     readonly property real size: paired ? pairedSize : signed ? (width < height ? [38, 36, 34, 32, 30, 29] : [32, 30, 29]).map(Theme.size).find(size => fits(size, noted, apart, most > 340 ? most : 290)) ?? Theme.small
@@ -54,11 +57,11 @@ PageFrame {
     // How far what stands on the card is from its upper and lower edge.
     readonly property real pad: (paired ? 0.75 : signed && width < height ? 1.5 : !signed ? 0.75 : fits(size, noted, apart, 290, 52) ? 1.2 : noted > Theme.small ? 0.5 : 0.75) * Theme.gap
     // How far the lines are apart, in gaps: further where there is room for that.
-    readonly property real apart: paired ? 0.85 : (width < height ? [1] : accompanied ? [1.1, 0.9, 0.7] : []).find(apart => fits(Theme.size(32), noted, apart, 290, width < height ? 0 : 52))
+    readonly property real apart: paired ? 1.34 : (width < height ? [1] : accompanied ? [1.1, 0.9, 0.7] : []).find(apart => fits(Theme.size(32), noted, apart, 290, width < height ? 0 : 52))
         ?? (width > height && noted > Theme.small ? 0.4 : 0.5)
     // Beside a drawing, a heading and its text stand close, so that they are seen as one.
     readonly property real leading: 0.9
-    readonly property string kept: words["debrief-take-home"] + (labName === "" ? "" : " · " + labName)
+    readonly property string kept: words[debrief.code === "" ? "debrief-take-home" : "debrief-take-home-scan"] + (labName === "" ? "" : " · " + labName)
     FontMetrics {
         id: letters
         font.pixelSize: 100
@@ -81,7 +84,7 @@ PageFrame {
         const heading = lines(keptMeasures, 1.08 * Theme.body, width < height ? column - 4 * Theme.gap : beside) * Math.ceil(1.37 * Theme.body)
         const above = width < height ? heading + 0.6 * Theme.gap : 0
         const card = (width < height ? 0 : heading) + 1.38 * Theme.size(72) + noted * Math.ceil(1.37 * cardSize) + (width < height ? 4.1 : cardSize > Theme.small ? 1.8 : 2.6) * Theme.gap
-        return tall + ((pairable ? rows.length : read.length) + 1) * apart * Theme.gap + above + Math.max((width < height ? Math.max(362, most + 72) : cardSize > Theme.small ? 318 : 266) * Theme.unit, card)
+        return tall + ((pairable ? rows.length : read.length) + 1) * apart * Theme.gap + above + Math.max((width < height ? Math.max(362, most + 72) + 20 : cardSize > Theme.small ? 318 : 266) * Theme.unit, card)
     }
     // What is added to that where an upright page has room for it.
     readonly property real further: !signed || width > height ? 0
@@ -89,7 +92,7 @@ PageFrame {
     // The widths of texts in letters of 100 pixels, part by part, measured once for all sizes that are tried.
     readonly property bool upright: width < height
     readonly property var measures: read.map(line => measured(line.text, boldLetters))
-    readonly property var notedMeasures: [debrief.scanning, upright ? words["debrief-code"] : "", debrief.withdrawing, debrief.returning, debrief.questions].map(text => measured(text, letters))
+    readonly property var notedMeasures: [upright ? words["debrief-code"] : "", debrief.withdrawing, debrief.returning, debrief.questions].map(text => measured(text, letters))
     readonly property var keptMeasures: measured(kept, letters)
     function measured(text: string, first: FontMetrics): var {
         return text.split("\n").map((part, index) => (index === 0 ? first : letters).advanceWidth(part))
@@ -123,6 +126,26 @@ PageFrame {
         // Among lines with headings, one without is a heading itself.
         strong: lead === "" && view.read.some(line => line.text.includes("\n"))
     }
+    // Where one stands beside another, it has a frame.
+    component Card: Rectangle {
+        id: card
+        required property var modelData
+        property bool bare: false
+        property real tall: said
+        readonly property real inset: bare ? 0 : view.inset
+        readonly property alias said: point.height
+        height: tall + 2 * inset
+        radius: Theme.radius
+        color: bare ? "transparent" : Theme.white
+        border { color: Theme.edge; width: bare ? 0 : 3 * Theme.unit }
+        Point {
+            id: point
+            x: card.bare ? 0 : view.insetAcross
+            y: card.inset
+            width: card.width - 2 * x
+            modelData: card.modelData
+        }
+    }
     ScrollPane {
         id: pane
         width: parent?.width ?? 0
@@ -137,7 +160,7 @@ PageFrame {
             width: pane.width
             height: texts.height + keepsake.height + (keepsake.there ? apart : 0)
             // Lines and card stand further apart than the lines, by half of what is free.
-            readonly property real apart: Theme.gap + (view.signed ? Math.max(0, Math.min(1.5 * Theme.gap, (view.room - texts.height - keepsake.height - Theme.gap) / 2)) : 0)
+            readonly property real apart: (view.paired ? 1.34 : 1) * Theme.gap + (view.signed ? Math.max(0, Math.min(1.5 * Theme.gap, (view.room - texts.height - keepsake.height - 1.34 * Theme.gap) / 2)) : 0)
             Item {
                 id: texts
                 y: parts.cardFirst ? keepsake.height + parts.apart : 0
@@ -155,10 +178,16 @@ PageFrame {
                         Row {
                             id: row
                             required property var modelData
-                            spacing: 2 * Theme.gap
+                            // As high as the one that says more.
+                            readonly property real tall: Math.max(...Array.from(children, each => (each as Card)?.said ?? 0))
+                            spacing: Theme.gap
                             Repeater {
                                 model: row.modelData
-                                Point { width: row.modelData.length > 1 ? texts.half : texts.width }
+                                Card {
+                                    width: (texts.width - (row.modelData.length - 1) * row.spacing) / row.modelData.length
+                                    bare: row.modelData.length === 1
+                                    tall: row.tall
+                                }
                             }
                         }
                     }
@@ -187,7 +216,10 @@ PageFrame {
                 width: pane.width
                 // On an upright screen its first line stands over all of its width, so that the code has more room.
                 readonly property real crown: told.stacked ? first.height + 0.6 * Theme.gap : 0
-                height: there ? crown + Math.max(qr.height + 2 * view.rim, told.height) + 2 * view.pad : 0
+                // And the code has a line of its own below it.
+                readonly property real under: holds.there ? holds.height + 0.25 * Theme.gap : 0
+                readonly property real inner: Math.max(qr.height + 2 * view.rim + under, told.height)
+                height: there ? crown + inner + 2 * view.pad : 0
                 // Who is not stored has no code, and may have questions all the same.
                 readonly property bool there: view.debrief.code !== "" || view.debrief.questions !== ""
                 visible: there
@@ -210,7 +242,7 @@ PageFrame {
                     id: qr
                     objectName: "qr"
                     visible: view.debrief.code !== ""
-                    anchors { left: parent.left; leftMargin: view.pad + view.rim; verticalCenter: parent.verticalCenter; verticalCenterOffset: keepsake.crown / 2 }
+                    anchors { left: parent.left; leftMargin: view.pad + view.rim; verticalCenter: parent.verticalCenter; verticalCenterOffset: (keepsake.crown - keepsake.under) / 2 }
                     width: view.square * view.debrief.squares
                     height: width
                     color: "white"
@@ -228,13 +260,29 @@ PageFrame {
                         Accessible.ignored: true
                     }
                 }
+                PlainText {
+                    id: holds
+                    objectName: "scanning"
+                    readonly property bool there: told.stacked && text !== ""
+                    visible: there
+                    x: qr.x - view.rim
+                    y: qr.y + qr.height + view.rim + 0.25 * Theme.gap
+                    width: qr.width + 2 * view.rim
+                    text: view.debrief.scanning
+                    font.pixelSize: Math.min(view.noted, Theme.size(30))
+                    fontSizeMode: Text.HorizontalFit
+                    minimumPixelSize: Theme.size(24)
+                    horizontalAlignment: Text.AlignHCenter
+                    color: Theme.ink
+                }
                 Column {
                     id: told
                     readonly property bool stacked: view.signed && view.width < view.height
                     anchors {
                         left: qr.right; leftMargin: (view.debrief.code !== "" ? 1.5 : 0.25) * Theme.gap
                         right: parent.right; rightMargin: stacked ? view.pad : Theme.gap
-                        verticalCenter: parent.verticalCenter; verticalCenterOffset: keepsake.crown / 2
+                        // Level with the code, where there is room for that.
+                        verticalCenter: parent.verticalCenter; verticalCenterOffset: (keepsake.crown - Math.min(keepsake.under, keepsake.inner - height)) / 2
                     }
                     spacing: (view.signed ? 0.2 : 0.3) * Theme.gap
                     Balanced {
@@ -243,15 +291,6 @@ PageFrame {
                         text: view.kept
                         font { pixelSize: Theme.body; bold: true }
                         horizontalAlignment: Text.AlignLeft
-                    }
-                    Balanced {
-                        objectName: "scanning"
-                        width: parent.width
-                        visible: text !== "" && view.signed
-                        text: view.debrief.scanning
-                        horizontalAlignment: Text.AlignLeft
-                        font.pixelSize: view.noted
-                        color: Theme.ink
                     }
                     // The code stands below its name on an upright screen, and beside it on others.
                     Item {

@@ -73,7 +73,7 @@ Item {
     }
     Column {
         id: words
-        readonly property real indent: line.signed ? mark.width + Theme.gap : 0
+        readonly property real indent: line.signed ? mark.width + (line.centred ? 1.5 : 1) * Theme.gap : 0
         x: Theme.across(indent, width, line.width)
         y: line.signed ? Math.max(0, (mark.height - height) / 2) : 0
         width: line.width - indent

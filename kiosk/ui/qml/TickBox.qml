@@ -58,7 +58,9 @@ Choosable {
             text: box.agreed
         }
         readonly property bool noted: box.note !== "" && box.warning === ""
-        readonly property bool beside: noted && !box.broad && noteWidth + Theme.gap < 0.4 * room
+        // How far the words keep from it.
+        readonly property real clear: (box.large ? 2.5 : 1) * Theme.gap
+        readonly property bool beside: noted && !box.broad && noteWidth + clear < 0.4 * room
         readonly property bool below: noted && box.broad && noteWidth <= room
         implicitHeight: Math.max(box.large ? 76 * Theme.unit : mark.height, told.height)
         implicitWidth: mark.width
@@ -66,9 +68,9 @@ Choosable {
             id: mark
             x: Theme.across(0, width, parts.width)
             y: (parts.height - height) / 2
-            width: 48 * Theme.unit
+            width: (box.large ? 64 : 48) * Theme.unit
             height: width
-            radius: 10 * Theme.unit
+            radius: 0.2 * width
             color: box.on ? Theme.sea : Theme.white
             border { color: box.warning ? Theme.deepAmber : Theme.sea; width: (box.warning ? 6 : 4) * Theme.unit }
             ClippedShape {
@@ -76,13 +78,13 @@ Choosable {
                 visible: box.on
                 ShapePath {
                     strokeColor: Theme.white
-                    strokeWidth: 6 * Theme.unit
+                    strokeWidth: 0.125 * mark.width
                     fillColor: "transparent"
                     capStyle: ShapePath.RoundCap
                     joinStyle: ShapePath.RoundJoin
-                    startX: 12 * Theme.unit; startY: 25 * Theme.unit
-                    PathLine { x: 21 * Theme.unit; y: 34 * Theme.unit }
-                    PathLine { x: 37 * Theme.unit; y: 15 * Theme.unit }
+                    startX: 0.25 * mark.width; startY: 0.52 * mark.width
+                    PathLine { x: 0.44 * mark.width; y: 0.71 * mark.width }
+                    PathLine { x: 0.77 * mark.width; y: 0.31 * mark.width }
                 }
             }
         }
@@ -90,7 +92,7 @@ Choosable {
             id: told
             x: Theme.across(mark.width + parts.after, width, parts.width)
             y: (parts.height - height) / 2
-            width: parts.room - (parts.beside ? parts.noteWidth + Theme.gap : 0)
+            width: parts.room - (parts.beside ? parts.noteWidth + parts.clear : 0)
             Balanced {
                 width: parent.width
                 text: box.words

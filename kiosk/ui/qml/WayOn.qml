@@ -112,7 +112,9 @@ FocusScope {
         most: ways.width
         x: Theme.across(0, width, ways.width)
         // Level with a way on of usual letters, also beside one of larger letters.
-        y: ways.beside ? ways.tallest - height - Math.min(8 * Theme.unit, (ways.tallest - height) / 2) : ways.paired ? no.y + (no.height - height) / 2 : ways.height - height
+        y: ways.level ? go.y : ways.beside ? ways.tallest - height - Math.min(8 * Theme.unit, (ways.tallest - height) / 2) : ways.paired ? no.y + (no.height - height) / 2 : ways.height - height
+        height: ways.level ? go.height : implicitHeight
+        corner: go.corner
         quiet: true
         words: ways.words["control-back"]
         verticalPadding: 18 * Theme.unit - 0.68 * (ways.letters - Theme.body)

@@ -259,7 +259,7 @@ class DebriefScreen(PageScreen):
 
     @Property(str, notify=given)
     def scanning(self) -> str:
-        """Return what a telephone finds in the QR code, in words."""
+        """Return what a telephone finds in the QR code, in a few words."""
         if not self._code:
             return ""
         if self.payload.startswith("mailto:"):

@@ -72,6 +72,7 @@ FIXED = (
     "keyboard-accents",
     "keyboard-signs",
     "debrief-take-home",
+    "debrief-take-home-scan",
     "debrief-code",
     "debrief-continue",
     "thanks-title",

@@ -173,10 +173,11 @@ keyboard-signs = Zeichen
 ## Debrief
 
 debrief-take-home = Zum Mitnehmen: Fotografiere diese Karte
+debrief-take-home-scan = Zum Mitnehmen: Scanne oder fotografiere diese Karte
 debrief-code = Dein Code
-debrief-scan-letter = Scannen: eine Nachricht an uns mit deinem Code, zum Absenden
-debrief-scan-summary = Scannen: dein Code und was wir untersuchen
-debrief-scan = Scannen: dein Code
+debrief-scan-letter = Eine Nachricht an uns
+debrief-scan-summary = Dein Code und die Studie
+debrief-scan = Dein Code zum Scannen
 debrief-withdraw-by-mail = Um deine Daten löschen zu lassen, sende diesen Code an { $contact }
 debrief-withdraw-here = Um deine Daten löschen zu lassen, nenne diesen Code den Leuten an diesem Tisch.
 debrief-return = Mit diesem Code kannst du an einem anderen Tag wiederkommen.
