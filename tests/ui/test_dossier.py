@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,8 @@ from kiosk.experiment.session_config import StudyConfig
 from kiosk.study.loader import read_study
 from kiosk.ui import dossier
 from kiosk.ui.dossier import dossier_html, write_dossier
+from kiosk.ui.window import RunMode
+from tests.ui.headless import HALF
 
 STUDY = read_study(
     Settings.model_validate(
@@ -41,6 +44,7 @@ def test_the_pdf_has_every_text_and_screen_of_each_language(tmp_path: Path, monk
 
     monkeypatch.setattr(QTextDocument, "setHtml", keep)
     monkeypatch.setattr(dossier, "PICTURE_WIDTH", 240)
+    monkeypatch.setattr(dossier, "RunMode", partial(RunMode, size=HALF.size))
     out = tmp_path / "study.pdf"
     pages = write_dossier(STUDY, 8, out)
     assert pages > 5

@@ -21,6 +21,7 @@ from kiosk.store.queries import open_repository
 from tests.robots.furhat_fake import FAULTS, FurhatFake, Mode
 from tests.robots.realtime_fake import Mode as Broken
 from tests.robots.realtime_fake import RealtimeFake
+from tests.samples import SHORT
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import short
 from tests.ui.sabotage import Moment, Result, Sabotage, after_loss, replayed, result_of
@@ -35,10 +36,13 @@ QUICKER = dict.fromkeys(DEADLINES, 700)
 """For a robot that is to be lost by a deadline: the test waits for it to pass, and it may pass a little early."""
 WITHOUT_ANSWER = (Mode.HANG, Mode.SLOW, Mode.TRICKLE, Broken.HANG, Broken.GARBAGE)
 
+WITHOUT_QUESTIONS = SHORT[:3]
+"""Stages of sessions in which the robot is lost before the questions: of their own fault, there is a test."""
 
-def quick(robot: dict[str, object]) -> Settings:
+
+def quick(robot: dict[str, object], **more: object) -> Settings:
     """Return a study with this robot, and a game of a third of the cards that still takes a hint."""
-    return short(robot=robot, game={"rows": 2, "columns": 4})
+    return short(robot=robot, game={"rows": 2, "columns": 4}, **more)
 
 
 @pytest.fixture
@@ -119,7 +123,8 @@ def test_a_robot_plays_the_avatars_pack_until_it_cannot_fetch_it_and_the_record_
 
 @pytest.mark.parametrize("mode", FAULTS, ids=lambda mode: mode.name.lower())
 def test_any_fault_at_any_moment_costs_nobody_anything(fake: FurhatFake, mode: Mode, make_booth: MakeBooth) -> None:
-    booth = make_booth(settings=quick(furhat(fake, **(QUICKER if mode in WITHOUT_ANSWER else QUICK))))
+    robot = furhat(fake, **(QUICKER if mode in WITHOUT_ANSWER else QUICK))
+    booth = make_booth(settings=quick(robot, stages=WITHOUT_QUESTIONS))
     at = Random(f"{mode.name}/1").randint(1, CLICKS)
     result = sabotaged(booth, fake, mode, at)
     assert result.embodiment_changes == 1
@@ -144,7 +149,7 @@ def test_over_the_other_interface_it_costs_nobody_anything_either(make_booth: Ma
             "speech_deadline_ms_per_char": 1,
             **(QUICKER if mode in WITHOUT_ANSWER else QUICK),
         }
-        booth = make_booth(settings=quick(robot))
+        booth = make_booth(settings=quick(robot, stages=WITHOUT_QUESTIONS))
         rehearsal = Sabotage(booth.app, 1, lambda: setattr(fake, "mode", mode), Moment.MIDDLE)
         rehearsal.run()
         with open_repository(booth.data) as stored:

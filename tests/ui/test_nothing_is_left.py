@@ -111,8 +111,9 @@ class Watched(Rehearsal):
     def _search(self, event: WorldEvent, outcome: Outcome, stage: Stage) -> None:
         self.own.note(self._app, event, outcome)
         if any(isinstance(concluded, StageEntered) for concluded in outcome.events):
-            shown = texts(self._app)
-            self.left += [(stage.value, text) for text in self._last.all() - self.own.all() if text in shown]
+            others = self._last.all() - self.own.all()
+            shown = texts(self._app) if others else ""
+            self.left += [(stage.value, text) for text in others if text in shown]
         assert self._go_on_watching is not None
         self._go_on_watching(event, outcome, stage)
 

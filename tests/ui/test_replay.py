@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -178,8 +179,9 @@ def test_nobody_who_watches_can_play_or_see_the_code(replay: Replay) -> None:
     assert seen(replay) == before
 
 
-def test_without_a_screen_it_saves_pictures(folder: Path, tmp_path: Path, qtbot: QtBot) -> None:
-    del qtbot
+@pytest.mark.usefixtures("qapp")
+def test_without_a_screen_it_saves_pictures(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("kiosk.cli.replay.RunMode", partial(RunMode, size=HALF.size))
     frames = tmp_path / "frames"
     result = CliRunner().invoke(
         recollect, ["replay", "1", "--data", str(folder), "--headless", "--frames", str(frames), "--json"]
