@@ -86,7 +86,8 @@ Item {
                     width: 7 * Theme.unit
                     height: width
                     radius: width / 2
-                    color: index <= corner.kiosk.textStep ? Theme.sea : Theme.edge
+                    color: index <= corner.kiosk.textStep ? Theme.sea : Theme.highContrast ? Theme.white : Theme.edge
+                    border { color: Theme.edge; width: Theme.highContrast ? Theme.unit : 0 }
                 }
             }
         }

@@ -21,7 +21,9 @@ Row {
             width: (index === progress.step ? 36 : 15) * Theme.unit
             height: 15 * Theme.unit
             radius: height / 2
-            color: index <= progress.step ? Theme.lightSea : Theme.edge
+            // Where nothing is pale, those to come are empty rings.
+            color: index <= progress.step ? Theme.lightSea : Theme.highContrast ? Theme.white : Theme.edge
+            border { color: Theme.edge; width: Theme.highContrast ? 2 * Theme.unit : 0 }
         }
     }
 }
