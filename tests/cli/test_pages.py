@@ -93,6 +93,9 @@ MADE_BEFORE = (
 )
 """What the examples of a command take from another one."""
 
+NAMED = ("data-set", "study", "simulated", "both", "DIR", "booth-1", "booth-2", "recordings", "voices")
+"""Folders with most of the files of a desk; a command reads them only if it names them."""
+
 SMALLEST_WINDOW = """
 import kiosk.cli.rehearse
 from kiosk.cli.main import main
@@ -156,6 +159,11 @@ class Block:
     def written(self) -> set[str]:
         """What its commands make anew, so that it must not be there before."""
         return set(re.findall(r"(?:--out|--write|study new|plan new) (\S+)", "\n".join(self.commands)))
+
+    @property
+    def unread(self) -> set[str]:
+        """Folders that none of its commands names, so that they need not be there."""
+        return set(NAMED) - {word.partition("/")[0] for command in self.commands for word in shlex.split(command)[1:]}
 
 
 def blocks() -> Iterator[Block]:
@@ -237,8 +245,9 @@ def desk(loaded: LoadedProgram, tmp_path_factory: pytest.TempPathFactory) -> Des
         shutil.copytree(stored, folder / name)
     for name, site in (("booth-1", "ROME"), ("booth-2", "PISA")):
         store(folder / name, [(a_visit(6), 3)], site=site)
-    for name in ("data-set", "study", "simulated"):
-        export_dataset(stored, folder / name, PsychDs)
+    export_dataset(stored, folder / "data-set", PsychDs)
+    for name in ("study", "simulated"):
+        shutil.copytree(folder / "data-set", folder / name)
     _write_studies(folder)
     _make_key(home, folder / "signers.txt")
     (folder / "items.csv").write_text(ITEMS, "utf-8")
@@ -287,7 +296,8 @@ def test_every_command_of_a_page_works_as_it_is_printed(
     block: Block, desk: Desk, loaded: LoadedProgram, tmp_path: Path
 ) -> None:
     here = tmp_path / "here"
-    shutil.copytree(desk.folder, here, ignore=lambda _, names: block.written & set(names))
+    away = block.written | block.unread
+    shutil.copytree(desk.folder, here, ignore=lambda _, names: away & set(names))
     shutil.copytree(desk.home, tmp_path / "home")
     at_work = Desk(here, tmp_path / "home", desk.code)
     for command in block.commands:
