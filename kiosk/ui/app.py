@@ -31,6 +31,7 @@ from kiosk.ui.event_loop import (
     InlineExecutor,
     MainThreadExecutor,
     ThreadExecutor,
+    TimerWait,
     VirtualClock,
     WallClock,
     after_first_frame,
@@ -58,6 +59,9 @@ _log = logging.getLogger(__name__)
 
 _BEGAN_MS = wall_ms()
 
+WATCH_AFTER_MS = 200
+"""How long after the start the disk, the alarms and the status file have their turn: the first frame comes before."""
+
 
 class App:
     """The kiosk, ready to run. Only one can be in a process."""
@@ -78,6 +82,7 @@ class App:
         """Called with a fault of ours once the error screen is up."""
         self.assigner = assigner
         self._beat = beat
+        self._watching: TimerWait | None = None
         self._window = Window(assigner.study, mode)
         with ExitStack() as undo:
             undo.callback(self._window.close)
@@ -133,9 +138,13 @@ class App:
         self._publisher = self._publish(settings, recorder, undo) if not virtual else None
         self._strip = self._open_strip(settings, mode, undo)
         if not virtual:
-            self.experimenter.upkeep.begin()
-            self.experimenter.status_file.begin()
-            self.experimenter.alarms.begin()
+            self._watching = self.clock.after(WATCH_AFTER_MS, self._watch)
+
+    def _watch(self) -> None:
+        """Begin to look after the disk, the status file and the alarms."""
+        self.experimenter.upkeep.begin()
+        self.experimenter.status_file.begin()
+        self.experimenter.alarms.begin()
 
     def _start_threads(self, *, virtual: bool) -> None:
         """Start what works beside the interface; on virtual time nothing does."""
@@ -203,6 +212,8 @@ class App:
         """End the session that is under way, and everything but the application object."""
         self.runner.close()
         self._loop.close()
+        if self._watching is not None:
+            self._watching.cancel()
         self.experimenter.close()
         for part in (self._publisher, self.markers, self._strip):
             if part is not None:
