@@ -358,17 +358,21 @@ def test_the_first_sentence_of_a_practice_goes_with_the_first_pair_and_can_be_he
         bubbles = (i for i in items(app.window.contentItem()) if lies_in(i, "Bubble"))
         return [i.property("text") for i in bubbles if i.property("text") and i.property("text") != "Memo"]
 
+    def cheers() -> bool:
+        bubbles = (i for i in items(app.window.contentItem()) if lies_in(i, "Bubble"))
+        return [i.property("font").bold() for i in bubbles if [i.property("text")] == said()] == [True]
+
     board, avatar = app.screens.board, app.screens.avatar
     board.deal(3, 4, 6, "animals", practice=True)
     app.screens.kiosk.show("practice")
     avatar.say("Let us practise first.")
-    assert said() == ["Let us practise first."]
+    assert (said(), cheers()) == (["Let us practise first."], False)
     board.mark_matched(GONE)
-    assert said() == ["A pair!"]
+    assert (said(), cheers()) == (["A pair!"], True)
     app.screens.kiosk.sayAgain()
-    assert said() == ["Let us practise first."]
+    assert (said(), cheers()) == (["Let us practise first."], False)
     avatar.say("Look at column 2.")
-    assert said() == ["Look at column 2."]
+    assert (said(), cheers()) == (["Look at column 2."], False)
 
 
 @STILL
