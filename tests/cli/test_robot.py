@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import signal
 import socket
 import subprocess
@@ -19,6 +20,7 @@ from kiosk.cli.main import recollect
 from kiosk.config import Settings
 from kiosk.robots.driver import SpokenClip
 from kiosk.robots.voice_packs import PackClips
+from tests.forked import LoadedProgram
 from tests.robots.furhat_fake import FurhatFake, Mode
 from tests.robots.realtime_fake import RealtimeFake
 
@@ -136,15 +138,18 @@ def test_the_study_file_says_where_the_robot_is(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("mode", "changes"), [(Mode.WELL, 0), (Mode.RESET, 1)], ids=["well", "fails"])
-def test_a_rehearsal_with_a_robot_tells_what_became_of_every_sentence(tmp_path: Path, mode: Mode, changes: int) -> None:
+def test_a_rehearsal_with_a_robot_tells_what_became_of_every_sentence(
+    loaded_program: LoadedProgram, tmp_path: Path, mode: Mode, changes: int
+) -> None:
     study = tmp_path / "study.toml"
-    study.write_text('languages = ["en"]\nstages = ["introduction", "game", "result"]\n[game]\nrows = 3\ncolumns = 4\n')
+    study.write_text('languages = ["en"]\nstages = ["introduction", "game", "result"]\n[game]\nrows = 2\ncolumns = 4\n')
     with FurhatFake(character_ms=0.2) as fake:
         fake.arm(mode, path="/furhat/say", after=2)
         robot = ["--robot-host", "127.0.0.1", "--robot-port", str(fake.port)]
-        command = [sys.executable, "-m", "kiosk", "rehearse", "--headless", "--json", "--data", str(tmp_path), *robot]
-        command += ["--study", str(study)]
-        played = json.loads(subprocess.run(command, capture_output=True, check=True, timeout=60).stdout)
+        command = ["rehearse", "--headless", "--json", "--data", str(tmp_path), "--study", str(study), *robot]
+        done = loaded_program.run(command, tmp_path, os.environ)
+    assert (done.returncode, done.stderr) == (0, "")
+    played = json.loads(done.stdout)
     assert (played["status"], played["embodiment"], played["embodiment_changes"]) == (
         "completed",
         "robot:furhat",
