@@ -17,7 +17,13 @@ from kiosk.store.queries import open_repository
 from kiosk.store.snapshot import wrong_pins
 from kiosk.ui.experimenter.view_model import AuthorisationStep
 from kiosk.ui.session_runner import LONGEST_MS, TOLD_AFTER_MS
-from tests.ui.experimenter.conftest import Desk, Witness
+from tests.ui.experimenter.conftest import Desk, MakeDesk, Witness
+
+
+@pytest.fixture
+def assigner(make_assigner: MakeDesk) -> Desk:
+    """Return a booth whose sessions begin with the introduction."""
+    return make_assigner(stages=["introduction", "practice", "game"])
 
 
 @pytest.fixture
