@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from enum import Enum
 
 from kiosk.experiment.events import EmbodimentName, SessionEvent, TextSize, Timer
@@ -207,6 +208,8 @@ class ShowItems:
     rates: bool = False
     hidden: tuple[str, ...] = ()
     """Those of the items that are not to be seen for now."""
+    title: Mapping[str, str] | None = None
+    """The title of their questionnaire in its languages, if it has one."""
 
 
 @dataclass(frozen=True)

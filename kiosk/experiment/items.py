@@ -35,6 +35,11 @@ def _by_language(given: object) -> object:
 Words = Annotated[dict[str, Text], Field(min_length=1), BeforeValidator(_by_language)]
 """One text in several languages, by their codes."""
 
+Title = Annotated[
+    dict[str, Annotated[str, Field(min_length=1, max_length=120)]], Field(min_length=1), BeforeValidator(_by_language)
+]
+"""A heading in several languages; a longer one would leave no room for what stands below it."""
+
 
 def in_language(words: Mapping[str, str], language: str) -> str:
     """Return the text in this language, or in the first one there is."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from random import Random
 from typing import ClassVar
 
@@ -325,6 +325,7 @@ class ItemPage:
 
     questionnaire: str
     items: tuple[Item, ...]
+    title: Mapping[str, str] | None = None
 
 
 def item_pages(questionnaire: Questionnaire, chance: Random) -> Iterator[ItemPage]:
@@ -335,7 +336,7 @@ def item_pages(questionnaire: Questionnaire, chance: Random) -> Iterator[ItemPag
             yield from _sheet(questionnaire, together)
             together = []
         if isinstance(item, TextPage):
-            yield ItemPage(questionnaire.id, (item,))
+            yield ItemPage(questionnaire.id, (item,), questionnaire.title)
         else:
             together.append(item)
     yield from _sheet(questionnaire, together)
@@ -343,7 +344,7 @@ def item_pages(questionnaire: Questionnaire, chance: Random) -> Iterator[ItemPag
 
 def _sheet(questionnaire: Questionnaire, items: list[Item]) -> Iterator[ItemPage]:
     if items:
-        yield ItemPage(questionnaire.id, tuple(items))
+        yield ItemPage(questionnaire.id, tuple(items), questionnaire.title)
 
 
 def _ordered(questionnaire: Questionnaire, chance: Random) -> list[Item]:
@@ -471,8 +472,8 @@ class QuestionnaireStage(StageHandler):
         outcome.emit(
             happened.QuestionnairePageShown(at_ms=outcome.at_ms, questionnaire=self._sheet.questionnaire, items=names)
         )
-        number, of = self._number + 1, len(self._sheets)
-        outcome.effect(do.ShowItems(self._sheet.items, number, of, self._rates, self._hidden_here))
+        sheet, number, of = self._sheet, self._number + 1, len(self._sheets)
+        outcome.effect(do.ShowItems(sheet.items, number, of, self._rates, self._hidden_here, sheet.title))
         given = ((item.id, self._answer(item)) for item in self._sheet.items)
         outcome.effect(*(do.ShowAnswer(item, value) for item, value in given if value is not None))
 

@@ -31,6 +31,7 @@ from kiosk.experiment.items import (
     Slider,
     Text,
     TextPage,
+    Title,
     Visits,
     in_language,
     refuse_twice,
@@ -96,8 +97,12 @@ MOST_ITEMS = 600
 """Items of a questionnaire; the longest inventories have 567."""
 
 
+TITLE = "the title"
+"""What the title is called among the items; no item can have this name."""
+
+
 class Questionnaire(ConfigModel):
-    """Items in their order; ``version`` changes whenever one does, and ``note`` says where the wording is from.
+    """Items in their order; ``version`` changes whenever one or the title does, and ``note`` says whose wording it is.
 
     In a file, a table that is named like a kind holds what all items of that kind have, unless they say otherwise.
     """
@@ -107,6 +112,11 @@ class Questionnaire(ConfigModel):
     id: Name
     version: Text
     note: Text
+    title: Annotated[Title | None, Field(exclude_if=lambda title: title is None)] = None
+    """What stands above its pages, such as the question that all items answer; None for the words of the language.
+
+    None stays out of dumps, so that the hash of a questionnaire without a title is what it always was.
+    """
     per_page: Annotated[int, Field(ge=1, le=8)] = 1
     order: Annotated[ItemOrder, Field(strict=False)] = ItemOrder.FIXED
     least_answered: Annotated[float, Field(ge=0, le=1)] = 0.5
@@ -149,8 +159,9 @@ class Questionnaire(ConfigModel):
         return max(1, math.ceil(round(self.least_answered * len(self.scales[scale]), 9)))
 
     def unworded(self, language: str) -> tuple[str, ...]:
-        """Return the items that lack a text in this language."""
-        return tuple(item.id for item in self.items if any(language not in words for words in item.texts()))
+        """Return the items that lack a text in this language, after the title if that lacks one."""
+        title = (TITLE,) if self.title is not None and language not in self.title else ()
+        return (*title, *(item.id for item in self.items if any(language not in words for words in item.texts())))
 
     @model_validator(mode="before")
     @classmethod
@@ -226,16 +237,28 @@ QUESTIONNAIRES = TypeAdapter(tuple[Questionnaire, ...])
 
 
 def differences(one: Questionnaire, other: Questionnaire) -> list[str]:
-    """Return the items and scales in which two contents of a questionnaire differ, in the languages that both have."""
+    """Return where two contents of a questionnaire differ: the title, items and scales.
+
+    Only languages that both have are compared.
+    """
     both = [{item.id: item for item in each.items} for each in (one, other)]
     languages = set.intersection(*({code for item in each.items for code in item.text} for each in (one, other)))
     names = dict.fromkeys((*both[0], *both[1]))
-    found = [name for name in names if _differs(both[0].get(name), both[1].get(name), languages)]
+    found = [TITLE] if titles_differ(one, other, languages) else []
+    found += [name for name in names if _differs(both[0].get(name), both[1].get(name), languages)]
     scales = [
         {name: (each.needed(name), summed(items)) for name, items in each.scales.items()} for each in (one, other)
     ]
     found += [name for name in dict.fromkeys((*scales[0], *scales[1])) if scales[0].get(name) != scales[1].get(name)]
     return found
+
+
+def titles_differ(one: Questionnaire, other: Questionnaire, languages: Iterable[str]) -> bool:
+    """Whether visitors read another title, or one where there was none, in any of these languages."""
+    if one.title is None or other.title is None:
+        return one.title is not other.title
+    both = one.title.keys() & other.title.keys()
+    return any(one.title[code] != other.title[code] for code in languages if code in both)
 
 
 def _differs(one: Item | None, other: Item | None, languages: Iterable[str]) -> bool:

@@ -152,10 +152,14 @@ def _of_example(plan: SessionConfig) -> Iterator[str]:
 
 
 def _unchanged_items(asked: Iterable[Questionnaire], source: str, language: str) -> Iterator[str]:
-    for item in (item for each in asked for item in each.items):
-        texts = [*item.texts()]
-        if any(is_untranslated(words.get(source, ""), words.get(language, "")) for words in texts):
-            yield item.id
+    for each in asked:
+        if _is_copied(each.title or {}, source, language):
+            yield f"the title of {each.id}"
+        yield from (item.id for item in each.items if any(_is_copied(text, source, language) for text in item.texts()))
+
+
+def _is_copied(words: Mapping[str, str], source: str, language: str) -> bool:
+    return is_untranslated(words.get(source, ""), words.get(language, ""))
 
 
 def _given(study: StudyConfig) -> set[Condition]:

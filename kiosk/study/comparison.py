@@ -152,7 +152,7 @@ def _asked(study: StudyConfig) -> tuple[Questionnaire, ...]:
 def _questionnaire(before: Questionnaire, after: Questionnaire, languages: Iterable[str]) -> Iterator[Difference]:
     where = f"questionnaire {before.id}"
     both = [{item.id: item for item in each.items} for each in (before, after)]
-    found: list[Difference] = []
+    found = [*_titles(where, before.title or {}, after.title or {}, dict.fromkeys(languages))]
     for name in dict.fromkeys((*both[0], *both[1])):
         old, new = (each.get(name) for each in both)
         found += _item(f"{where}, item {name}", old, new, tuple(dict.fromkeys(languages)))
@@ -168,6 +168,17 @@ def _questionnaire(before: Questionnaire, after: Questionnaire, languages: Itera
     if found and before.version == after.version:
         what = f"the version stays {before.version!r}"
         yield Difference(where, what, Impact.NONE, "give the changed questionnaire another version")
+
+
+def _titles(
+    where: str, old: Mapping[str, str], new: Mapping[str, str], languages: Iterable[str]
+) -> Iterator[Difference]:
+    for language in languages:
+        words = old.get(language), new.get(language)
+        # A language that only one of two titles has is a translation.
+        if words[0] != words[1] and (None not in words or not old or not new):
+            what = f"title, {language}: {_short(words[0])} becomes {_short(words[1])}"
+            yield Difference(where, what, Impact.BEHAVIOUR, "another wording can change answers")
 
 
 def _item(where: str, old: Item | None, new: Item | None, languages: tuple[str, ...]) -> Iterator[Difference]:

@@ -387,7 +387,7 @@ def as_toml(questionnaire: Questionnaire) -> str:
     given = questionnaire.model_dump(mode="json", exclude_defaults=True)
     items = given.pop("items")
     for key, value in given.items():
-        document.add(key, value)
+        _add(document, key, value)
     tables = tomlkit.aot()
     for item in items:
         tables.append(_table({"id": item.pop("id"), "kind": item.pop("kind")} | item))
@@ -399,15 +399,19 @@ def _table(item: Mapping[str, Any]) -> Table:
     """Return an item, with a line for each language of a text and for each option."""
     table = tomlkit.table()
     for key, value in item.items():
-        match value:
-            case dict():
-                for language, words in value.items():
-                    table.add(tomlkit.key((key, language)), words)
-            case list():
-                table.add(key, _item_lines(value))
-            case _:
-                table.add(key, value)
+        _add(table, key, value)
     return table
+
+
+def _add(table: Table | tomlkit.TOMLDocument, key: str, value: Any) -> None:
+    match value:
+        case dict():
+            for language, words in value.items():
+                table.add(tomlkit.key((key, language)), words)
+        case list():
+            table.add(key, _item_lines(value))
+        case _:
+            table.add(key, value)
 
 
 def _item_lines(tables: Sequence[Mapping[str, Any]]) -> Array:

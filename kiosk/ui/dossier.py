@@ -149,7 +149,8 @@ def _language(plan: SessionConfig, minutes: int, shots: Iterable[Path], *, on_ne
     yield f"<h2>{words('items')}</h2>"
     for asked in (plan.about_you, *plan.questionnaires):
         yield f"<h3>{escape(asked.id)}, {words('version')} {escape(asked.version)}</h3>"
-        yield f"<p class='note'>{escape(asked.note)}</p><ol>"
+        yield f"<p class='note'>{escape(asked.note)}</p>"
+        yield f"<p>{escape(in_language(asked.title, language))}</p><ol>" if asked.title else "<ol>"
         yield from (f"<li>{'<br/>'.join(_item(item, language, words))}</li>" for item in asked.items)
         yield "</ol>"
     yield f"<h2>{words('screens')}</h2>"

@@ -119,6 +119,7 @@ def texts_of(study: StudyConfig) -> Iterator[tuple[str, str, str]]:
                 json.dumps(getattr(sheet, key).model_dump(mode="json"), ensure_ascii=False),
             )
         for asked in (plan.about_you, *plan.questionnaires):
+            yield language, f"{asked.id}, title", (asked.title or {}).get(language, "")
             for item in asked.items:
                 for words in item.texts():
                     yield language, f"{asked.id}, item {item.id}", words.get(language, "")

@@ -144,7 +144,7 @@ class _FormPage:
 
     def effect(self, hidden: tuple[str, ...] = ()) -> Effect:
         """Return what shows it."""
-        return do.ShowItems(self.items, self.number, self.of, self.rates, hidden)
+        return do.ShowItems(self.items, self.number, self.of, self.rates, hidden, self.asked.title)
 
     def hidden(self, given: Mapping[str, Response]) -> tuple[str, ...]:
         """Return the items that their conditions hide after these answers."""

@@ -17,6 +17,7 @@ FORM = """
 id = "form"
 version = "1"
 note = "made for tests"
+title.en = "How far do you agree?"
 
 [[items]]
 id = "liked"
@@ -106,6 +107,10 @@ CASES: dict[str, tuple[Edit, str, str, Impact]] = {
     "a wording": (
         ("form.toml", "I liked it.", "I loved it."),
         *("item liked", 'en: "I liked it." becomes "I loved it."', Impact.BEHAVIOUR),
+    ),
+    "a title": (
+        ("form.toml", 'title.en = "How far', 'title.en = "Do you agree, and how far'),
+        *("questionnaire form", "title, en: ", Impact.BEHAVIOUR),
     ),
     "an answer that is asked for": (
         ("form.toml", 'id = "liked"', 'id = "liked"\nrequired = true'),

@@ -18,7 +18,7 @@ from kiosk.study.loader import read_study
 def lab(tmp_path: Path) -> Path:
     """Return a folder with things of the lab's own, which all have the names of shipped ones."""
     text = (ASSETS / "questionnaires" / "trust.toml").read_text("utf-8")
-    (tmp_path / "trust.toml").write_text(text.replace('version = "2"', 'version = "lab"'), "utf-8")
+    (tmp_path / "trust.toml").write_text(text.replace('version = "3"', 'version = "lab"'), "utf-8")
     for kind, name in (("consent", "study"), ("cards", "animals"), ("sentences", "en")):
         shutil.copytree(ASSETS / kind / name, tmp_path / name)
     sheet = tmp_path / "study" / "en.toml"

@@ -19,7 +19,7 @@ from kiosk.experiment.items import (
     TextPage,
     in_language,
 )
-from kiosk.experiment.questionnaire import KINDS, Questionnaire
+from kiosk.experiment.questionnaire import KINDS, TITLE, Questionnaire, differences
 from tests.samples import without_line
 
 GALLERY = Questionnaire.read(ASSETS / "questionnaires" / "gallery.toml")
@@ -129,11 +129,33 @@ def test_scales_keep_their_items_in_order(tmp_path: Path) -> None:
 
 def test_a_word_that_is_missing_in_a_language_is_found_in_all_that_is_worded() -> None:
     assert GALLERY.unworded("en") == ()
-    assert GALLERY.unworded("de") == tuple(item.id for item in GALLERY.items)
+    assert GALLERY.unworded("de") == (TITLE, *(item.id for item in GALLERY.items))
     for name, key in (("enjoyed", "lowest"), ("clear", "right"), ("effort", "left"), ("mood", "highest")):
         given = tomllib.loads((ASSETS / "questionnaires" / "gallery.toml").read_text("utf-8"))
         next(item for item in given["items"] if item["id"] == name)[key].pop("es")
         assert Questionnaire.model_validate(given).unworded("es") == (name,)
+    assert GALLERY.model_copy(update={"title": {"en": "How?"}}).unworded("es") == (TITLE,)
+
+
+def test_a_questionnaire_without_a_title_has_the_hash_that_it_always_had() -> None:
+    assert '"title"' in GALLERY.model_dump_json()
+    assert '"title"' not in GALLERY.model_copy(update={"title": None}).model_dump_json()
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "differs"),
+    [
+        (None, None, False),
+        (None, {"en": "How?"}, True),
+        ({"en": "How?"}, {"en": "Why?"}, True),
+        ({"en": "How?"}, {"en": "How?", "it": "Come?"}, False),
+    ],
+)
+def test_another_title_is_another_content_and_a_translation_of_it_is_none(
+    one: dict[str, str] | None, other: dict[str, str] | None, *, differs: bool
+) -> None:
+    both = [GALLERY.model_copy(update={"title": title}) for title in (one, other)]
+    assert differences(*both) == ([TITLE] if differs else [])
 
 
 def test_a_text_falls_back_to_its_first_language() -> None:
@@ -176,8 +198,16 @@ def test_a_text_falls_back_to_its_first_language() -> None:
         ),
         (
             "[likert]",
+            f"title.en = '{'m' * 121}'\n[likert]",
+            "title.en must have at most 120 characters",
+        ),
+        ("[likert]", "title = 'How?'\n[likert]", "title: 'How?' stands in no language; write { en = 'How?' }"),
+        ("[likert]", "title = {}\n[likert]", "title must have at least 1 entry, but it has 0"),
+        (
+            "[likert]",
             "[likret]",
-            "there is no key 'likret'; there are id, version, note, per_page, order, least_answered, visits, items",
+            "there is no key 'likret'; there are id, version, note, title, per_page, order, least_answered, visits, "
+            "items",
         ),
     ],
 )

@@ -29,6 +29,8 @@ def test_every_questionnaire_is_worded_in_every_language(file: Path) -> None:
     questionnaire = Questionnaire.read(file)
     assert questionnaire.id == file.stem
     assert [questionnaire.unworded(language) for language in LANGUAGES] == [(), (), ()]
+    # A title that stands in two lines moves its page down.
+    assert max(map(len, (questionnaire.title or {"en": ""}).values())) <= len("Über die Hilfe im Spiel")
 
 
 @pytest.mark.parametrize("file", QUESTIONNAIRES, ids=lambda file: str(file.stem))

@@ -200,13 +200,14 @@ def test_a_copy_that_is_not_translated_is_cautioned(study: Path) -> None:
     form = form.replace('text.en = "Who are you?"', 'text = { en = "Who are you?", nl = "Wie ben je?" }')
     form = form.replace('text.en = "A pupil"', 'text = { en = "A pupil", nl = "x" }')
     form = form.replace('text.en = "A teacher"', 'text = { en = "A teacher", nl = "y" }')
+    form = form.replace("title.en = ", 'title.nl = "How far do you agree?"\ntitle.en = ')
     (study.parent / "form.toml").write_text(form, "utf-8")
     about = 'id = "me"\nversion = "1"\nnote = "n"\n[[items]]\nid = "p"\nkind = "page"\ntext = { en = "a", nl = "b" }\n'
     (study.parent / "me.toml").write_text(about, "utf-8")
     study.write_text(STUDY.format(', "./nl"').replace("[consent]", 'about_you = "./me.toml"\n[consent]'), "utf-8")
     warnings = study_warnings(read_study(Settings.read(study)))
     assert any("the sentences in 'nl' are still English in" in each for each in warnings)
-    assert "in 'nl', items are still in 'en': liked" in warnings
+    assert "in 'nl', items are still in 'en': the title of form, liked" in warnings
     assert "the information sheet in 'nl' has paragraphs that are still in 'en'" in warnings
     assert any("the information sheet in 'en' still has the example's text" in each for each in warnings)
 

@@ -299,9 +299,11 @@ def moments(screens: ScreenSet, study: StudyConfig) -> Iterator[tuple[str, str, 
     folder = ASSETS / "cards" / "animals"
     found = [file.as_uri() for file in sorted(folder.glob("*.svg"))[:12]]
     yield "result", "result", lambda: screens.result.show(12, 188, 59 * 60_000 + 59_000, 188, found)
-    for name, items in pages():
+    for name, items, title in pages():
         shown = tuple(worded(item, language) for item in items)
-        yield name, "form", partial(screens.form.show, shown, *((1, 1) if name == "about you" else (10, 12)))
+        number = (1, 1) if name == "about you" else (10, 12)
+        above = {language: pseudo.sentence(title["en"])} if title and language == pseudo.LANGUAGE else title
+        yield name, "form", partial(screens.form.show, shown, *number, (), above)
         if not any(isinstance(item, TextPage) for item in items):
             names = tuple(item.id for item in items)
             yield f"{name}, missing", "form", partial(screens.form.show_missing, names)
@@ -316,17 +318,20 @@ def moments(screens: ScreenSet, study: StudyConfig) -> Iterator[tuple[str, str, 
     yield "thanks", "thanks", lambda: None
 
 
-def pages() -> Iterator[tuple[str, tuple[Item, ...]]]:
-    """Pages of a form: every kind alone, kinds together, and the study's own questionnaires."""
+def pages() -> Iterator[tuple[str, tuple[Item, ...], dict[str, str] | None]]:
+    """Pages of a form with their titles: every kind alone, kinds together, and the study's own questionnaires."""
     for item in GALLERY.items:
-        yield f"one {item.kind}", (item,)
+        yield f"one {item.kind}", (item,), None
     asked = tuple(item for item in GALLERY.items if not isinstance(item, TextPage))
-    yield "several kinds", asked[:4]
-    yield "several other kinds", asked[4:]
-    yield "about you", ASKED["about-you"].items
-    yield "trust", ASKED["trust"].items
-    yield "four ratings", ASKED["social-intelligence"].items[:4]
-    yield "six ratings", ASKED["social-intelligence"].items[4:10]
+    yield "several kinds", asked[:4], None
+    yield "several other kinds", asked[4:], None
+    for name, of, among in (
+        ("about you", "about-you", slice(None)),
+        ("trust", "trust", slice(None)),
+        ("four ratings", "social-intelligence", slice(4)),
+        ("six ratings", "social-intelligence", slice(4, 10)),
+    ):
+        yield name, ASKED[of].items[among], ASKED[of].title
 
 
 @pytest.mark.parametrize("layout", LAYOUTS, ids=str)

@@ -396,6 +396,19 @@ def test_a_page_in_another_language_is_in_that_language(booth: Booth) -> None:
     assert shown(booth, "item-clear", ITEMS["differential"].text["it"])
     assert find_item(booth.app.window.contentItem(), "continue") is not None
     assert booth.item("continue").property("words") == "Avanti"
+    assert booth.item("page-title").property("text") == "Alcune domande"
+
+
+def test_the_title_of_a_questionnaire_stands_above_its_pages_in_the_visitor_s_language(booth: Booth) -> None:
+    form = booth.app.screens.form
+    form.show((ITEMS["page"],), 1, 2, (), {"en": "How far do you agree?", "it": "Quanto sei d'accordo?"})
+    booth.app.screens.kiosk.show("form")
+    booth.settle()
+    assert shown(booth, "page-title", "How far do you agree?")
+    booth.app.screens.set_language(CATALOGUES["it"])
+    assert shown(booth, "page-title", "Quanto sei d'accordo?")
+    form.show((ITEMS["page"],), 2, 2)
+    assert shown(booth, "page-title", "Alcune domande")
 
 
 def test_plus_and_minus_run_while_they_are_held_and_answer_once_when_let_go(booth: Booth, given: Given) -> None:

@@ -174,7 +174,7 @@ PageFrame {
     readonly property bool keysBelow: keyboard.visible && keyboard.numbers && keyboard.y >= height
 
     wider: !alone && rates()
-    title: words["form-title"]
+    title: form.title
     // Pale until the page is answered, and yet to be pressed: what is left out is pointed out then.
     quiet: form.skips || !form.complete
     way.waits: !form.skips && !form.complete

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -108,6 +108,7 @@ class FormScreen(QObject):
         self._hidden: frozenset[str] = frozenset()
         self._shown: tuple[Item, ...] = ()
         self._number = self._of = 0
+        self._title: Mapping[str, str] | None = None
         self._answers: dict[str, Response] = {}
         self._given: dict[str, Response | None] = {}
         """What the visitor has answered, although it may not be shown yet."""
@@ -126,9 +127,20 @@ class FormScreen(QObject):
         for item, text in typed.items():
             self.filled.emit(item, text)
 
-    def show(self, items: tuple[Item, ...], number: int, of: int, hidden: tuple[str, ...] = ()) -> None:
-        """Show a page, ``number`` ``of`` so many, but for its hidden items; nothing is answered."""
+    def show(
+        self,
+        items: tuple[Item, ...],
+        number: int,
+        of: int,
+        hidden: tuple[str, ...] = (),
+        title: Mapping[str, str] | None = None,
+    ) -> None:
+        """Show a page, ``number`` ``of`` so many, but for its hidden items; nothing is answered.
+
+        Without a ``title`` in any language, it has the one that all forms have.
+        """
         self._items, self._number, self._of = items, number, of
+        self._title = title
         self._views = None
         self._set_hidden(hidden)
         self._answers, self._given, self._drafts, self._missing = {}, {}, {}, ()
@@ -202,6 +214,11 @@ class FormScreen(QObject):
         if self._views is None:
             self._views = [item_view(item, self._catalogue, self._scale) for item in self._items]
         return self._views
+
+    @Property(str, notify=changed)
+    def title(self) -> str:
+        """Return what stands above the items."""
+        return in_language(self._title, self._catalogue.language) if self._title else self._catalogue.text("form-title")
 
     @Property(str, notify=changed)
     def progress(self) -> str:

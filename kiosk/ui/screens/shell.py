@@ -51,7 +51,6 @@ FIXED = (
     "result-hints-label",
     "result-line",
     "result-continue",
-    "form-title",
     "form-calm",
     "form-next",
     "form-not-applicable",

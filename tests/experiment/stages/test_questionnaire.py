@@ -340,6 +340,16 @@ def test_questionnaires_come_one_after_another_and_share_no_page() -> None:
     assert len(driver.noted(happened.QuestionnairesCompleted)) == 1
 
 
+def test_each_page_has_the_title_of_its_questionnaire() -> None:
+    driver = asking(PAGE, likert("one"), likert("two"), title={"en": "How far?", "it": "Quanto?"})
+    titles = []
+    while driver.stage is Stage.QUESTIONS:
+        assert driver.view.page is not None
+        titles.append(driver.view.page.title)
+        driver.go_on()
+    assert titles == [{"en": "How far?", "it": "Quanto?"}] * 3
+
+
 def test_the_questions_about_the_visitor_are_asked_in_the_same_way() -> None:
     driver = driven_to(Stage.ABOUT_YOU)
     assert driver.view.page == do.ShowItems(ABOUT_YOU.items[:3], 1, 2)
