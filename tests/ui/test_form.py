@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
-from PySide6.QtCore import QDeadlineTimer, Qt
+from PySide6.QtCore import QDeadlineTimer, QPointF, Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtQuick import QQuickItem
 from PySide6.QtTest import QTest
@@ -461,19 +461,24 @@ def test_the_options_of_a_wide_page_stand_in_two_columns_that_all_its_questions_
     assert len({option.height() for option in (*genders, *robots)}) == 1
 
 
-def test_an_upright_screen_s_keys_take_the_helper_s_place(make_booth: MakeBooth, qtbot: QtBot) -> None:
+def test_an_upright_page_s_keys_stand_below_their_question_until_another_is_answered(
+    make_booth: MakeBooth, qtbot: QtBot
+) -> None:
     booth = make_booth()
     window = booth.app.window
     window.resize(1080, 1920)
     qtbot.waitUntil(lambda: window.contentItem().width() == 1080)
-    ask(booth, ITEMS["integer"])
-    assert booth.sees("face")
-    booth.click("number-alone")
-    assert not booth.sees("face")
+    ask(booth, *Questionnaire.read(ASSETS / "questionnaires" / "about-you.toml").items)
+    booth.click("number-age")
+    below = booth.item("item-age").mapToScene(QPointF(0, booth.item("item-age").height())).y()
+    assert 0 < booth.item("key-1").mapToScene(QPointF(0, 0)).y() - below < 100
     booth.click("key-2")
-    assert booth.item("number-alone").property("text") == "2"
+    assert booth.item("number-age").property("text") == "2"
+    booth.click("option-robots-works")
+    assert not booth.sees("key-1")
+    booth.click("number-age")
     booth.click("key-done")
-    assert booth.sees("face")
+    assert not booth.sees("key-1")
 
 
 def test_the_way_on_says_how_many_answers_it_waits_for(booth: Booth) -> None:

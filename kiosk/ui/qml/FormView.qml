@@ -170,9 +170,6 @@ PageFrame {
     // Whether the keys of a number stand in the helper's place.
     readonly property bool keysBeside: keyboard.visible && keyboard.numbers
 
-    // Whether the keys of a number stand below this page, where the helper is on an upright screen.
-    readonly property bool keysBelow: keyboard.visible && keyboard.numbers && keyboard.y >= height
-
     wider: !alone && rates()
     title: form.title
     // Pale until the page is answered, and yet to be pressed: what is left out is pointed out then.
@@ -244,9 +241,16 @@ PageFrame {
             pane.turn(event)
     }
 
-    // Where the keys of a number stand: in the helper's place, in the margin, or below everything; they cover no answer
-    // unless there is no such place.
+    // Where the keys of a number stand. On an upright page: below the card of their field, or above it, over other cards.
+    // On a wide one: in the helper's place, in the margin, or below everything; they cover no answer unless there is no
+    // such place.
     function padPlace(wide: real, tall: real): point {
+        if (upright) {
+            const top = keyboard.card === null ? 0 : begin + home.y + keyboard.card.mapToItem(home, 0, 0).y, room = 36 * Theme.unit
+            const under = top + (keyboard.card?.height ?? 0) + room
+            const edge = (width - column) / 2, across = Math.max(edge, Math.min(width - edge - wide, keyboard.aim.x - wide / 2))
+            return Qt.point(across, under + tall <= height ? under : Math.max(0, top - room - tall))
+        }
         const after = Window.width - before - width
         const beside = keyboard.field === null ? 0
             : Math.max(0, Math.min(height - tall, foot - tall - Theme.gap, begin + home.y + keyboard.field.mapToItem(home, 0, keyboard.field.height / 2).y - tall / 2))
@@ -255,7 +259,7 @@ PageFrame {
         if ((width - column) / 2 >= wide)
             return Qt.point(width - wide - ((width - column) / 2 - wide) / 2, beside)
         if (Window.height - height >= tall)
-            return Qt.point(upright ? Theme.across((width - column) / 2, wide, width) : (width - wide) / 2, height + Math.max(0, (Window.height - height - tall - 80 * Theme.unit - below) / 2))
+            return Qt.point((width - wide) / 2, height + Math.max(0, (Window.height - height - tall - 80 * Theme.unit - below) / 2))
         const free = foot - tall - Theme.gap
         return free >= begin + home.y + home.height ? Qt.point((width - wide) / 2, free) : Qt.point(width - wide, beside)
     }
@@ -364,6 +368,7 @@ PageFrame {
                 id: boxes
                 model: view.form.items
                 FormItem {
+                    id: asked
                     required property int index
                     required property var modelData
                     width: parent?.width ?? 0
@@ -391,7 +396,10 @@ PageFrame {
                     questionHeight: view.questionHeight
                     headed: !view.repeats(index)
                     inline: view.inline(modelData)
-                    onEntered: field => keyboard.field = field
+                    onEntered: field => {
+                        keyboard.card = asked
+                        keyboard.field = field
+                    }
                 }
             }
         }
@@ -401,11 +409,14 @@ PageFrame {
         parent: view
         form: view.form
         place: view.padPlace(width, height)
-        // As wide as what the helper says, or as the cards: the controls then stand in a row below.
+        // As wide as what the helper says, or as the cards.
         spare: view.upright ? view.column
              : view.accompanied ? Window.width - view.before - view.width - Theme.gap : 0
         away: x < 0 ? (view.width - view.column) / 2 - x - width : x - (view.width + view.column) / 2
-        aim: field === null ? 0 : view.begin + home.y + field.mapToItem(home, 0, field.height / 2).y
+        aim: {
+            const middle = field?.mapToItem(home, field.width / 2, field.height / 2) ?? Qt.point(0, 0)
+            return Qt.point(home.mapToItem(view, middle.x, 0).x, view.begin + home.y + middle.y)
+        }
         words: view.words
         onDone: view.way.button.forceActiveFocus(Qt.MouseFocusReason)
     }
@@ -413,6 +424,14 @@ PageFrame {
         target: view.way
         function onActiveFocusChanged() {
             if (view.way.activeFocus)
+                keyboard.field = null
+        }
+    }
+    Connections {
+        target: keyboard.field
+        // Keys that cover other questions go when one of these is answered.
+        function onActiveFocusChanged() {
+            if (view.upright && keyboard.numbers && !keyboard.field.activeFocus)
                 keyboard.field = null
         }
     }

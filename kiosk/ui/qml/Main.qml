@@ -219,7 +219,6 @@ Window {
         Later {
             id: formPage
             shown: root.kiosk.screen === "form"
-            property bool keysBelow: false
             property bool keysBeside: false
             property bool lined: false
             x: -stage.x
@@ -243,7 +242,6 @@ Window {
                     kiosk: root.kiosk
                     words: root.words
                 }
-                Binding { target: formPage; property: "keysBelow"; value: formView.keysBelow }
                 Binding { target: formPage; property: "keysBeside"; value: formView.keysBeside }
                 Binding { target: formPage; property: "lined"; value: formView.lined }
             }
@@ -372,7 +370,6 @@ Window {
         avatar: root.avatar
         speaks: root.wide || root.speaks
         thinks: boardPage.visible && root.board.speaking
-        yields: formPage.visible && formPage.keysBelow && !root.kiosk.paused && !root.asking
         rests: root.kiosk.paused
         waits: root.kiosk.asks !== "" || root.kiosk.asksStillThere
         // Large sentences need the room.
@@ -409,7 +406,7 @@ Window {
         canRepeat: root.avatar.bubble !== "" && ["practice", "game"].includes(root.kiosk.screen)
         // There is nothing to be done in a pause.
         opacity: root.kiosk.paused ? 0 : 1
-        places: !root.wide ? (stage.unwatched || root.high || formPage.keysBelow ? 5 : 1) : root.whole && root.speaks ? 3 : 5
+        places: !root.wide ? (stage.unwatched || root.high ? 5 : 1) : root.whole && root.speaks ? 3 : 5
         visible: (kiosk.inSession || kiosk.screen === "attract") && root.replay === null
         // Where the game speaks, there is always a place for the button that comes and goes.
         readonly property bool keeps: root.speaks && root.kiosk.inSession

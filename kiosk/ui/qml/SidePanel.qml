@@ -16,8 +16,6 @@ Item {
     property real share: 0.52
     // Whether it has the width of an upright screen for what it says.
     property bool broad: false
-    // Whether something else stands in its place.
-    property bool yields: false
     // Whether it rests, with its eyes shut and in silence.
     property bool rests: false
     // Whether a question lies over everything: its face is then neither glad nor sad.
@@ -120,7 +118,7 @@ Item {
         id: face
         objectName: "face"
         // How far it has gone out of sight, through the lower edge.
-        property real gone: panel.avatar.away || panel.yields ? 1 : 0
+        property real gone: panel.avatar.away ? 1 : 0
         Behavior on gone { NumberAnimation { duration: 3 * Theme.motion; easing.type: Easing.InOutQuad } }
         anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: -1.05 * height * gone }
         width: Math.min(parent.width - 40 * Theme.unit, parent.height * (panel.speaks ? panel.share : 0.94) * 400 / 440)

@@ -177,7 +177,7 @@ Item {
                     visible: box.inline && text !== ""
                     text: box.item.range ?? ""
                     horizontalAlignment: Text.AlignLeft
-                    font.pixelSize: Theme.small
+                    font.pixelSize: box.large ? Theme.size(30) : Theme.small
                     wrapMode: Text.Wrap
                     color: Theme.faintInk
                 }

@@ -11,15 +11,17 @@ Rectangle {
     id: keyboard
 
     property TypedField field: null
+    // What the field belongs to.
+    property Item card: null
     required property FormScreen form
     required property var words
     // Where a number's keys stand.
     required property point place
-    // How much width they have beside a wide page or below an upright one, and how far from the cards they are there.
+    // How much width they have beside a wide page or over an upright one, and how far from the cards they are beside it.
     property real spare: 0
     property real away: 0
-    // How high in the page the middle of the field is.
-    property real aim: 0
+    // Where in the page the middle of the field is.
+    property point aim
     signal done()
 
     // A keyboard is not turned round with the page.
@@ -35,16 +37,17 @@ Rectangle {
     readonly property int longest: Math.max(10, ...rows.map(row => row.length))
     readonly property real gap: 8 * Theme.unit
     readonly property real room: parent.width
-    // Whether a number's keys have an upright screen's width below the page.
-    readonly property bool broad: parent.width < parent.height && Window.height - parent.height > 400 * Theme.unit
+    // Whether a number's keys have an upright page's width.
+    readonly property bool broad: parent.width < parent.height
     // Or a wide screen's margin beside it.
     readonly property bool roomy: Window.width - parent.width >= 440 * Theme.unit
     readonly property real keyWidth: numbers ? flat ? fitting(spare - 190 * Theme.unit - gap, 5, 90, 160)
         : broad ? 150 * Theme.unit : roomy ? fitting(spare, 3, 108, 160) : 80 * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
-    readonly property real keyHeight: (numbers ? (flat ? 130 : roomy ? 70 : 68) : 60) * Theme.unit
+    readonly property real keyHeight: (numbers ? (flat ? 140 : roomy ? 70 : 68) : 60) * Theme.unit
 
     // Whether they point at their field, at one side of it.
-    readonly property bool points: numbers && !flat && (x >= parent.width || x < 0) && aim > y + radius + 24 * Theme.unit && aim < y + height - radius - 24 * Theme.unit
+    readonly property bool points: numbers && (broad ? aim.x > x + radius + 36 * Theme.unit && aim.x < x + width - radius - 36 * Theme.unit
+        : (x >= parent.width || x < 0) && aim.y > y + radius + 24 * Theme.unit && aim.y < y + height - radius - 24 * Theme.unit)
 
     // How wide so many keys in a row are in this room, within these units.
     function fitting(wide: real, many: int, least: real, most: real): real {
@@ -56,7 +59,7 @@ Rectangle {
     height: keys.height + 1.2 * Theme.gap
     x: numbers ? place.x : 0
     y: numbers ? place.y : parent.height - height
-    radius: numbers ? flat ? 34 * Theme.unit : 1.6 * Theme.radius : 0
+    radius: numbers ? Theme.radius : 0
     color: Theme.sand
     visible: field !== null
     onFieldChanged: {
@@ -93,7 +96,7 @@ Rectangle {
             verticalAlignment: Text.AlignVCenter
         }
         background: Rectangle {
-            radius: keyboard.flat ? 26 * Theme.unit : keyboard.numbers ? height / 2 : 10 * Theme.unit
+            radius: keyboard.flat ? 16 * Theme.unit : keyboard.numbers ? height / 2 : 10 * Theme.unit
             color: key.pressedIn ? Theme.sea : Theme.white
             border { color: key.hovered ? Theme.sea : Theme.edge; width: 2 * Theme.unit }
             Backspace {
@@ -118,11 +121,12 @@ Rectangle {
     Shape {
         id: tail
         visible: keyboard.points
-        width: Math.max(30 * Theme.unit, Math.min(96 * Theme.unit, keyboard.away))
-        height: 48 * Theme.unit
-        x: keyboard.x < 0 ? keyboard.width : -width
-        y: keyboard.aim - keyboard.y - height / 2
-        rotation: keyboard.x < 0 ? 180 : 0
+        readonly property bool after: keyboard.broad ? keyboard.aim.y > keyboard.y : keyboard.x < 0
+        width: keyboard.broad ? 32 * Theme.unit : Math.max(30 * Theme.unit, Math.min(96 * Theme.unit, keyboard.away))
+        height: (keyboard.broad ? 64 : 48) * Theme.unit
+        x: keyboard.broad ? keyboard.aim.x - keyboard.x - width / 2 : after ? keyboard.width : -width
+        y: keyboard.broad ? (after ? keyboard.height + width / 2 : -width / 2) - height / 2 : keyboard.aim.y - keyboard.y - height / 2
+        rotation: (keyboard.broad ? 90 : 0) + (after ? 180 : 0)
         ShapePath {
             fillColor: keyboard.color
             strokeWidth: -1

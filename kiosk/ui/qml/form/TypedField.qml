@@ -55,6 +55,10 @@ TextField {
     inputMethodHints: digits ? (minus ? Qt.ImhFormattedNumbersOnly : Qt.ImhDigitsOnly) | Qt.ImhNoPredictiveText : Qt.ImhNoPredictiveText
     Accessible.name: label
     Accessible.description: hint
+    onActiveFocusChanged: {
+        if (activeFocus && (focusReason === Qt.TabFocusReason || focusReason === Qt.BacktabFocusReason))
+            Theme.byKeyboard = true
+    }
     // The keys come when the finger is lifted: they may move the field, and it would be lifted beside it.
     property bool touched: false
     function lifted() {
@@ -88,11 +92,12 @@ TextField {
     }
     background: Rectangle {
         radius: Theme.radius
-        color: Theme.white
-        border { color: field.activeFocus ? Theme.ink : Theme.sea; width: (field.activeFocus ? 5 : 3) * Theme.unit }
+        // Of the colour of the keys on the screen that type into it.
+        color: field.activeFocus && !Theme.byKeyboard ? Theme.sand : Theme.white
+        border { color: Theme.sea; width: (field.activeFocus ? 6 : 3) * Theme.unit }
         // Inside of a number, which has buttons beside it.
         FocusRing {
-            visible: field.activeFocus
+            visible: field.activeFocus && Theme.byKeyboard
             reach: (field.digits ? -8 : 8) * Theme.unit
             radius: Theme.radius + reach
         }
