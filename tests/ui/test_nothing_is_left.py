@@ -14,7 +14,8 @@ from PySide6.QtQuick import QQuickItem
 from kiosk.experiment import effects as do
 from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import ResponseGiven, StageEntered, WorldEvent
-from kiosk.experiment.outcomes import Stage
+from kiosk.experiment.outcomes import Stage, Status
+from kiosk.store.queries import open_repository
 from kiosk.ui.app import App
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile, lay_out
@@ -135,12 +136,14 @@ def differences(before: list[dict[str, str]], after: list[dict[str, str]]) -> li
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
-def test_after_any_session_the_kiosk_is_as_it_was_before_the_first(make_booth: MakeBooth, seed: int) -> None:
+def test_after_any_session_even_of_one_who_taps_everywhere_the_kiosk_is_as_it_was_before_the_first(
+    make_booth: MakeBooth, seed: int
+) -> None:
     booth = make_booth(settings=SMALL)
     booth.settle()
     booth.prepare_pages()
     screens, window = of_screens(booth.app), of_window(booth.app)
-    last = Memory()
+    last, completed = Memory(), 0
     for number, visitor in enumerate(visitors(seed)):
         session = Watched(booth.app, 100 * seed + number, visitor, last)
         session.run()
@@ -150,6 +153,11 @@ def test_after_any_session_the_kiosk_is_as_it_was_before_the_first(make_booth: M
         assert differences(window, of_window(booth.app)) == [], visitor
         shown = texts(booth.app)
         assert not any(text in shown for text in session.own.all()), visitor
+        # Also one who clicks twice and taps everywhere comes to the end.
+        if visitor.manner in {BehaviourKind.COMPLETES, BehaviourKind.HASTY}:
+            completed += 1
+            with open_repository(booth.data) as stored:
+                assert [each.status for each in stored.sessions()].count(Status.COMPLETED) == completed
         # One who does all there is to do leaves something of every kind that is searched for.
         if visitor.manner is BehaviourKind.COMPLETES:
             assert session.own.codes

@@ -93,14 +93,6 @@ def test_whoever_walks_away_is_asked_and_then_the_kiosk_is_free_again(make_booth
     assert endings == ([] if stage == "consent" else [Status.ABANDONED])
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
-def test_whoever_clicks_twice_and_taps_everywhere_comes_to_the_end_too(make_booth: MakeBooth, seed: int) -> None:
-    booth = make_booth(settings=SMALL)
-    booth.rehearse(seed, BehaviourProfile(BehaviourKind.HASTY))
-    with open_repository(booth.data) as stored:
-        assert [session.status for session in stored.sessions()] == [Status.COMPLETED]
-
-
 CONDITIONAL = """
 id = "asked"
 version = "1"
