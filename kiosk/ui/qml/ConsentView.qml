@@ -147,12 +147,12 @@ PageFrame {
                 readonly property real further: {
                     if (!view.short || !points.airy)
                         return 0
-                    let free = pane.room - points.height - 0.6 * Theme.gap - waits.height
+                    let free = pane.room - points.height - 1.6 * Theme.gap - waits.height
                     for (let i = 0; i < purposes.count; i++)
                         free -= ((purposes.itemAt(i) as Purpose)?.bare ?? 0) + spacing
                     return Math.max(0, Math.min((points.columns > 1 || view.width < view.height ? 0.8 : 0.5) * Theme.gap, free))
                 }
-                spacing: (points.airy && view.short ? (view.width < view.height ? 1.1 : points.columns > 1 ? 0.9 : 0.67) : 0.5) * Theme.gap
+                spacing: (points.airy && view.short ? (view.width < view.height ? 1 : points.columns > 1 ? 0.9 : 0.67) : 0.5) * Theme.gap
                 // What is still to be ticked, or that nothing is.
                 PlainText {
                     id: waits

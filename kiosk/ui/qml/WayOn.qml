@@ -112,9 +112,11 @@ FocusScope {
         most: ways.width
         x: Theme.across(0, width, ways.width)
         // Level with a way on of usual letters, also beside one of larger letters.
-        y: ways.level ? go.y : ways.beside ? ways.tallest - height - Math.min(8 * Theme.unit, (ways.tallest - height) / 2) : ways.paired ? no.y + (no.height - height) / 2 : ways.height - height
-        height: ways.level ? go.height : implicitHeight
-        corner: go.corner
+        y: alike ? go.y : ways.beside ? ways.tallest - height - Math.min(8 * Theme.unit, (ways.tallest - height) / 2) : ways.paired ? no.y + (no.height - height) / 2 : ways.height - height
+        // Where the ways on fill a row with it, all have one height; on a wide page it stands as on all others.
+        readonly property bool alike: ways.level && ways.fills
+        height: alike ? go.height : ways.paired && !ways.beside ? no.height : implicitHeight
+        corner: alike ? go.corner : Infinity
         quiet: true
         words: ways.words["control-back"]
         verticalPadding: 18 * Theme.unit - 0.68 * (ways.letters - Theme.body)
