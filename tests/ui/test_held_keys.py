@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import pytest
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QGuiApplication, QKeyEvent
@@ -12,9 +14,11 @@ from kiosk.experiment.items import Answer, ShortText
 from kiosk.ui.app import App
 from kiosk.ui.experimenter.view_model import AuthorisationStep
 from tests.ui.conftest import Booth, MakeBooth
+from tests.ui.headless import often
 from tests.ui.reaching import MOST_STOPS
 from tests.ui.touring import ASKED, PIN, open_panel, tour, whole_study
 
+WHOLE = often(whole_study())
 NO_KEY = Qt.KeyboardModifier.NoModifier
 ACTIVATING = (Qt.Key.Key_Space, Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Select)
 TEXT = {Qt.Key.Key_Space: " ", Qt.Key.Key_Return: "\r", Qt.Key.Key_Enter: "\r"}
@@ -61,7 +65,7 @@ def listen(app: App) -> list[object]:
 
 
 def test_a_key_that_was_held_down_before_presses_no_control_of_any_screen(make_booth: MakeBooth) -> None:
-    app = make_booth(settings=whole_study()).app
+    app = make_booth(settings=WHOLE).app
     done, window = listen(app), app.window
     pressed: dict[tuple[str, str], list[object]] = {}
     tried: set[str] = set()
@@ -96,7 +100,7 @@ def test_a_key_that_was_held_down_before_presses_no_control_of_any_screen(make_b
 
 @pytest.mark.parametrize("key", ACTIVATING)
 def test_a_consent_tick_is_set_once(make_booth: MakeBooth, key: Qt.Key) -> None:
-    booth = make_booth(settings=whole_study())
+    booth = make_booth(settings=WHOLE)
     for name in ("start-en", "continue", "age-yes"):
         booth.click(name)
     # The first stop is the button that shows all of the text.
@@ -104,31 +108,6 @@ def test_a_consent_tick_is_set_once(make_booth: MakeBooth, key: Qt.Key) -> None:
     booth.press(Qt.Key.Key_Tab)
     hold(booth.app.window, key)
     assert booth.app.screens.consent.property("ticks") == [booth.app.screens.consent.offered[0]]
-
-
-@pytest.mark.parametrize("key", ACTIVATING[:3])
-@pytest.mark.parametrize("kind", ["likert", "differential", "pictures", "single", "multiple", "slider"])
-def test_a_choice_is_made_once(booth: Booth, kind: str, key: Qt.Key) -> None:
-    given: list[Answer | None] = []
-
-    def take(item: str, value: Answer | None) -> None:
-        given.append(value)
-        booth.app.screens.form.show_answer(item, value)
-
-    booth.app.screens.form.answered.connect(take)
-    booth.ask(ASKED[kind])
-    booth.press(Qt.Key.Key_Tab)
-    hold(booth.app.window, key)
-    assert len(given) == 1
-
-
-@pytest.mark.parametrize("key", ACTIVATING)
-def test_a_number_is_stepped_once(booth: Booth, key: Qt.Key) -> None:
-    booth.ask(ASKED["integer"])
-    booth.press(Qt.Key.Key_Tab)
-    booth.item("more-alone").forceActiveFocus()
-    hold(booth.app.window, key)
-    assert booth.item("number-alone").property("text") == "0"
 
 
 @pytest.mark.parametrize("key", ACTIVATING[:3])
@@ -143,7 +122,7 @@ def test_a_card_is_turned_once_and_no_second_one_by_a_key_that_stays_down(booth:
 
 @pytest.mark.parametrize("key", ACTIVATING)
 def test_an_action_of_the_panel_is_done_once(make_booth: MakeBooth, key: Qt.Key) -> None:
-    booth = make_booth(settings=whole_study())
+    booth = make_booth(settings=WHOLE)
     booth.click("start-en")
     open_panel(booth.app)
     wished: list[str] = []
@@ -154,7 +133,7 @@ def test_an_action_of_the_panel_is_done_once(make_booth: MakeBooth, key: Qt.Key)
 
 
 def test_a_digit_of_the_pin_counts_once_and_backspace_goes_on(make_booth: MakeBooth) -> None:
-    booth = make_booth(settings=whole_study())
+    booth = make_booth(settings=WHOLE)
     card = booth.app.screens.experimenter.parts[0]
     booth.press(Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
     assert card.asks_for is AuthorisationStep.PIN
@@ -165,24 +144,61 @@ def test_a_digit_of_the_pin_counts_once_and_backspace_goes_on(make_booth: MakeBo
     assert card.property("text") == ""
 
 
-def test_letters_and_backspace_repeat_in_a_text_field_and_the_way_on_does_not(booth: Booth) -> None:
-    done: list[object] = []
-    booth.app.screens.form.answered.connect(lambda *what: done.append(what))
-    booth.ask(ShortText(id="remark", kind="text", text={"en": "Remarks?"}))
-    booth.click("text-remark")
-    window = booth.app.window
-    hold(window, Qt.Key.Key_A, "a")
-    hold(window, Qt.Key.Key_Space)
-    assert booth.item("text-remark").property("text") == "aaaa" + 4 * " "
-    for _ in range(2):
-        send(window, QEvent.Type.KeyPress, Qt.Key.Key_Backspace, "", again=True)
-    assert booth.item("text-remark").property("text") == "aaaa" + 2 * " "
-    hold(window, Qt.Key.Key_Return)
-    assert done == [("remark", "aaaa" + 2 * " ")]
-
-
 def test_keys_that_move_repeat(booth: Booth) -> None:
     booth.start_game()
     booth.settle()
     hold(booth.app.window, Qt.Key.Key_Right)
     assert booth.item("board").property("currentIndex") == 4
+
+
+# From here on, the tests share a kiosk: a second one would take the panel's shortcut as well.
+
+
+@pytest.fixture
+def given(resting_booth: Booth) -> Iterator[list[tuple[str, Answer | None]]]:
+    """Provide the answers that the form takes, each of which it then shows."""
+    form, answers = resting_booth.app.screens.form, list[tuple[str, Answer | None]]()
+
+    def take(item: str, value: Answer | None) -> None:
+        answers.append((item, value))
+        form.show_answer(item, value)
+
+    form.answered.connect(take)
+    yield answers
+    form.answered.disconnect(take)
+
+
+@pytest.mark.parametrize("key", ACTIVATING[:3])
+@pytest.mark.parametrize("kind", ["likert", "differential", "pictures", "single", "multiple", "slider"])
+def test_a_choice_is_made_once(
+    resting_booth: Booth, given: list[tuple[str, Answer | None]], kind: str, key: Qt.Key
+) -> None:
+    resting_booth.ask(ASKED[kind])
+    resting_booth.press(Qt.Key.Key_Tab)
+    hold(resting_booth.app.window, key)
+    assert len(given) == 1
+
+
+@pytest.mark.parametrize("key", ACTIVATING)
+def test_a_number_is_stepped_once(resting_booth: Booth, key: Qt.Key) -> None:
+    resting_booth.ask(ASKED["integer"])
+    resting_booth.press(Qt.Key.Key_Tab)
+    resting_booth.item("more-alone").forceActiveFocus()
+    hold(resting_booth.app.window, key)
+    assert resting_booth.item("number-alone").property("text") == "0"
+
+
+def test_letters_and_backspace_repeat_in_a_text_field_and_the_way_on_does_not(
+    resting_booth: Booth, given: list[tuple[str, Answer | None]]
+) -> None:
+    resting_booth.ask(ShortText(id="remark", kind="text", text={"en": "Remarks?"}))
+    resting_booth.click("text-remark")
+    window = resting_booth.app.window
+    hold(window, Qt.Key.Key_A, "a")
+    hold(window, Qt.Key.Key_Space)
+    assert resting_booth.item("text-remark").property("text") == "aaaa" + 4 * " "
+    for _ in range(2):
+        send(window, QEvent.Type.KeyPress, Qt.Key.Key_Backspace, "", again=True)
+    assert resting_booth.item("text-remark").property("text") == "aaaa" + 2 * " "
+    hold(window, Qt.Key.Key_Return)
+    assert given == [("remark", "aaaa" + 2 * " ")]
