@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kiosk.assistance.mentaliser import HintReason
@@ -48,6 +48,8 @@ st.register_type_strategy(
 
 
 @pytest.mark.parametrize("kind", EVERY_EVENT, ids=lambda kind: str(kind.__name__))
+# An event has few fields, and there are many kinds with the same ones.
+@settings(max_examples=30)
 @given(st.data())
 def test_any_event_comes_back_from_its_record_as_it_was(kind: type[Event], data: st.DataObject) -> None:
     event = data.draw(st.builds(kind))
