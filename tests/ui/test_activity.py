@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from datetime import UTC, datetime
 from pathlib import Path
 from shutil import copytree
@@ -11,14 +11,17 @@ import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QGuiApplication, QKeyEvent, QWheelEvent
 from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
 
 from kiosk.config import ASSETS, Settings
 from kiosk.experiment import events as happened
+from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import EmbodimentName, InputDevice, WorldEvent
+from kiosk.experiment.outcomes import Stage
 from kiosk.store.queries import open_repository
 from kiosk.ui.event_loop import VirtualClock
 from tests.ui.conftest import Booth, MakeBooth
-from tests.ui.headless import SMALL, short
+from tests.ui.headless import HALF, SMALL, headless, short
 from tests.ui.reaching import touch_screen
 from tests.ui.touring import PIN, SHORTCUT, whole_study
 
@@ -103,30 +106,60 @@ NO_SIGNS = {
 }
 
 
-@pytest.fixture
-def reading(make_booth: MakeBooth) -> Booth:
-    """Return a booth whose visitor reads what it is about."""
-    booth = make_booth(settings=SMALL)
-    booth.click("start-en")
-    booth.settle()
-    assert booth.screen == "about"
-    return booth
+@pytest.fixture(scope="module")
+def at_work(qapp: QGuiApplication, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Booth]:
+    """Provide one booth for all visitors who read."""
+    data = tmp_path_factory.mktemp("data")
+    with headless(SMALL, data, mode=HALF) as app:
+        while not app.window.isExposed():
+            qapp.processEvents()
+        yield Booth(app, data)
 
 
 @pytest.fixture
-def told(reading: Booth) -> list[WorldEvent]:
+def reading(at_work: Booth, qtbot: QtBot) -> Booth:
+    """Return that booth, whose visitor has just begun to read what it is about."""
+    app = at_work.app
+    app.window.requestActivate()
+    qtbot.waitUntil(app.window.isActive)
+    if at_work.screen != "attract":
+        app.runner.dispatch(happened.AbortRequested(at_ms=app.runner.now_ms(), reason="a test"))
+        at_work.wait_until(lambda: at_work.screen == "attract")
+    at_work.click("start-en")
+    at_work.settle()
+    assert at_work.screen == "about"
+    return at_work
+
+
+@pytest.fixture
+def told(reading: Booth, monkeypatch: pytest.MonkeyPatch) -> list[WorldEvent]:
     """Return what is recorded from now on, but for waits and voices."""
     events: list[WorldEvent] = []
     kinds = (happened.UserActivity, happened.PresenceConfirmed, happened.IdleTimedOut)
-    reading.app.runner.on_event = lambda event, _outcome, _stage: (
-        events.append(event) if isinstance(event, kinds) else None
-    )
+
+    def tell(event: WorldEvent, _outcome: Outcome, _stage: Stage) -> None:
+        if isinstance(event, kinds):
+            events.append(event)
+
+    monkeypatch.setattr(reading.app.runner, "on_event", tell)
     return events
 
 
 def asked(booth: Booth) -> bool:
     """Whether the visitor is asked if they are still there."""
     return bool(booth.app.screens.kiosk.property("asksStillThere"))
+
+
+def test_the_digits_of_a_pin_do_not_answer_for_the_visitor(make_booth: MakeBooth) -> None:
+    # It comes before the tests that share a kiosk, which would take the panel's shortcut as well.
+    booth = make_booth(settings=whole_study())
+    booth.click("start-en")
+    booth.wait_until(lambda: asked(booth))
+    booth.settle()
+    booth.press(Qt.Key.Key_P, SHORTCUT)
+    for digit in PIN[:2]:
+        QTest.keyClick(booth.app.window, digit)  # type: ignore[call-overload]  # it takes characters
+    assert asked(booth)
 
 
 @pytest.mark.parametrize("sign", SIGNS.values(), ids=SIGNS.keys())
@@ -202,17 +235,6 @@ def test_a_touch_in_the_moment_when_the_question_comes_is_no_answer_yet(reading:
     reading.wait_until(lambda: asked(reading))
     touch(reading)
     assert asked(reading)
-
-
-def test_the_digits_of_a_pin_do_not_answer_for_the_visitor(make_booth: MakeBooth) -> None:
-    booth = make_booth(settings=whole_study())
-    booth.click("start-en")
-    booth.wait_until(lambda: asked(booth))
-    booth.settle()
-    booth.press(Qt.Key.Key_P, SHORTCUT)
-    for digit in PIN[:2]:
-        QTest.keyClick(booth.app.window, digit)  # type: ignore[call-overload]  # it takes characters
-    assert asked(booth)
 
 
 def test_a_typed_answer_of_few_letters_is_a_sign_too(make_booth: MakeBooth) -> None:
