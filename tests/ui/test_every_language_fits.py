@@ -482,6 +482,21 @@ def test_cards_and_scales_stand_at_the_same_places_on_all_pages_of_four_ratings(
     assert len(set(cards_at)) == 4
 
 
+@pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1280, 800), Layout(1080, 1920)], ids=str)
+def test_a_long_title_of_a_questionnaire_stands_clear_of_the_controls(
+    kiosk: tuple[Window, StudyConfig], layout: Layout
+) -> None:
+    window, title = kiosk[0], "How far do you agree with each of these sentences about the helper of your game?"
+    assert list(shown_in(kiosk, layout, ("trust",))) == ["trust"]
+    window.screens.avatar.leave(away=True)
+    for items in (ASKED["trust"].items, ASKED["trust"].items[:1]):
+        window.screens.form.show(items, 10, 12, (), {"en": title})
+        lay_out(window.shown)
+        assert_all_can_be_read(window.shown, f"{len(items)} items")
+    window.screens.avatar.leave(away=False)
+    let_go(window.shown)
+
+
 @pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1280, 800), Layout(1366, 768, robot=True)], ids=str)
 def test_the_keys_of_a_number_cover_no_text_and_no_button_of_a_wide_page(
     kiosk: tuple[Window, StudyConfig], layout: Layout

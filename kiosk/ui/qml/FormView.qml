@@ -172,6 +172,8 @@ PageFrame {
 
     wider: !alone && rates()
     title: form.title
+    // A long title of a questionnaire's own would reach the controls.
+    cornered: upright ? 0 : Math.max(0, 360 * Theme.unit - (width - column) / 2)
     // Pale until the page is answered, and yet to be pressed: what is left out is pointed out then.
     quiet: form.skips || !form.complete
     way.waits: !form.skips && !form.complete
@@ -314,7 +316,7 @@ PageFrame {
         text: view.form.progress
         font.pixelSize: Theme.size(34)
         // Beside the title on a wide screen, where the controls and the dots of the visit are at the end of its line.
-        readonly property bool follows: view.width > view.height && view.titleWidth + width + 2 * Theme.gap < view.column
+        readonly property bool follows: view.width > view.height && view.titleWidth + width + Theme.gap < view.column - view.cornered + 1
         x: Theme.across(follows ? view.titleWidth + Theme.gap : view.column - width, width, view.column)
         // In the title's line.
         y: -Theme.gap - 0.5 * (Theme.pageTitle * 1.36 + height) + (follows ? 0.13 * Theme.pageTitle : 0)

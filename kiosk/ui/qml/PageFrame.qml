@@ -21,6 +21,8 @@ FocusScope {
     property real covered: 0
     // What stands at the end of the title's line, if anything.
     property Item beside: null
+    // How much of the end of the title's line is not the page's: the controls stand there.
+    property real cornered: 0
     // Whether it does. That it is seen depends on the page as well.
     property bool besides: false
     // Whether the helper stands beside this page on a wide screen, and what is then read in its bubble instead of here.
@@ -75,7 +77,7 @@ FocusScope {
         x: body.x + Theme.across(0, width, frame.column)
         y: frame.above
         transform: Translate { y: -frame.lift }
-        width: frame.column - (frame.besides ? frame.beside.width + Theme.gap : 0)
+        width: frame.column - frame.cornered - (frame.besides ? frame.beside.width + Theme.gap : 0)
         visible: text !== ""
         text: frame.title
         horizontalAlignment: Text.AlignLeft
