@@ -159,8 +159,9 @@ Item {
                     onLineLaidOut: line => {
                         if (box.item.kind !== "slider" || !line.isLast)
                             return
-                        const at = line.implicitWidth + 0.5 * Theme.gap
-                        roomy = at + sign <= width
+                        // The hand takes the middle of its square.
+                        const at = line.implicitWidth + 0.5 * Theme.gap - 0.15 * sign
+                        roomy = at + 0.83 * sign <= width
                         end = Qt.point(Theme.across(at, sign, width), line.y + Math.max((line.height - sign) / 2, line.height - 0.79 * sign))
                     }
                     // At the end of the words that say so, and not at the line: there it would favour an answer.
