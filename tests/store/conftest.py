@@ -14,6 +14,7 @@ from kiosk.store import codes
 from kiosk.store.recorder import Provenance
 from tests.experiment.driver import Driver, with_memory
 from tests.samples import mixed, plan
+from tests.store.visitors import CHEAP
 
 ROOT = Path(__file__).parents[2]
 
@@ -22,7 +23,7 @@ ROOT = Path(__file__).parents[2]
 def cheap_codes() -> Iterator[None]:
     """Let a code cost next to nothing: these tests give many, and none is to hold against an attack."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(codes, "_COST", 2**5)
+        patch.setattr(codes, "_COST", CHEAP)
         yield
 
 

@@ -23,6 +23,8 @@ LEFT = (*BEGUN, happened.SessionEnded(at_ms=5, status=Status.ABANDONED))
 FINISHED = (*BEGUN, happened.GameFinished(at_ms=5))
 COMPLETED = (*FINISHED, happened.SessionEnded(at_ms=9, status=Status.COMPLETED))
 FOUR = {Condition.TOM: 4, Condition.NOTOM: 4}
+CHEAP = 2**5
+"""What a code costs in tests that give many, as none is to hold against an attack."""
 
 
 def rows(folder: Path, query: str) -> list[tuple[Any, ...]]:

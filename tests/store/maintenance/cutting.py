@@ -16,8 +16,9 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from kiosk.store import connecting, remnants
+from kiosk.store import codes, connecting, remnants
 from kiosk.store.withdrawal import withdraw
+from tests.store.visitors import CHEAP
 
 PAGE = 4096
 _FILE_EVENTS = {"open", "os.rename", "os.remove", "sqlite3.connect"}
@@ -67,6 +68,8 @@ def cut(folder: str, code: str, step: int | None, page: int | None) -> None:
 
 def main() -> None:
     """Fork for every order, and say whether it came to its end."""
+    # As in the process that gave the codes.
+    codes._COST = CHEAP
     for line in sys.stdin:
         order = json.loads(line)
         child = os.fork()

@@ -48,11 +48,6 @@ KILLED, CUT_AT_A_PAGE = -9, -25
 Cut = Callable[..., int]
 
 
-@pytest.fixture(scope="module", autouse=True)
-def cheap_codes() -> None:
-    """Leave codes as they are: another process looks for them here."""
-
-
 @pytest.fixture(scope="module")
 def pristine(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     """Return a folder as a killed kiosk leaves it, and a visitor's code.
