@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from datetime import datetime
 from functools import partial
+from itertools import chain
 from typing import TYPE_CHECKING, Any, Self
 
 from kiosk import StorageError
@@ -628,9 +629,12 @@ class SessionRunner:
         record.confirm()
         if record.is_kept:
             self.on_recorded(record.participant, (handled.event, *handled.outcome.events))
+        is_new = record.code != self._renderer.screens.debrief.shown_code
         self._before_effects(handled.outcome, record.code, returns=session.may_return)
         self._renderer.screens.kiosk.reach(session.stage.value)
-        return _Showing(handled, self._renderer.steps(handled.outcome.effects))
+        steps = self._renderer.steps(handled.outcome.effects)
+        # To draw a visitor's code is a step of its own.
+        return _Showing(handled, chain((None,), steps) if is_new else steps)
 
     def _before_effects(self, outcome: Outcome, code: str, *, returns: bool) -> None:
         self._screen_changed = False

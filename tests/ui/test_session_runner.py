@@ -293,6 +293,9 @@ def test_a_page_is_filled_in_one_step_and_shown_in_the_next(booth: Booth, closed
     app.runner.on_event = lambda event, *_: shown.append((type(event).__name__, booth.screen))
     app.runner.later = steps.append
     app.runner.start("en")
+    # The code of the new visitor is drawn in a step of its own, before the page is filled.
+    assert app.screens.debrief.shown_code
+    steps.pop()()
     assert (booth.screen, bool(app.screens.introduction.helped), shown) == ("attract", True, [])
     # What happens meanwhile waits, and a tap on the page before is none on this one.
     app.runner.dispatch(happened.ContinuePressed(at_ms=0))
