@@ -46,7 +46,7 @@ LESS = {
 LESS_OF_A_REPLAY = ("--speed", "32")
 """The same for a replay that is looked at later."""
 ONE_LAYOUT = ("--layout", "wide")
-"""The same for the pictures of a rehearsal; tests/ui/test_rehearsal.py has those of both layouts."""
+"""The same for the pictures of a rehearsal; tests/test_story.py has those of both layouts."""
 
 TRIED_BY_ROWS = {"rehearse", "replay", "check", "run", "report", "status"}
 """Commands of a tutorial that take long or need a kiosk; the rows try all but the report."""
