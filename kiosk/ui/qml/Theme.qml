@@ -33,7 +33,7 @@ QtObject {
     // What lies below things that are put down on it.
     readonly property color shelf: highContrast ? "#FFFFFF" : Qt.tint(paper, Qt.alpha(sand, 0.32))
     // A place on it where nothing lies yet, and the outline of a card there.
-    readonly property color hollow: highContrast ? "#FFFFFF" : Qt.tint(paper, Qt.alpha(sand, 0.68))
+    readonly property color hollow: highContrast ? "#FFFFFF" : Qt.darker(sand, 1.08)
     readonly property color slot: highContrast ? "#000000" : Qt.darker(sand, 1.25)
     readonly property color ink: highContrast ? "#000000" : "#22313F"
     readonly property color faintInk: highContrast ? "#1A2430" : "#4A5A68"

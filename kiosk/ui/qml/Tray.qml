@@ -65,21 +65,21 @@ Item {
                 radius: height * 0.18
                 color: Theme.leaf
             }
-            // Until then the pale shapes of the two cards, where they will lie.
+            // Until then the shapes of the two cards: where they will lie, or so far apart that both are seen.
             Repeater {
                 model: place.filled ? 0 : 2
                 Rectangle {
                     required property int index
                     anchors {
                         centerIn: parent
-                        horizontalCenterOffset: (index === 0 ? -1 : 1) * (tray.paired ? place.aside : tray.behind)
-                        verticalCenterOffset: tray.paired ? 0 : (index === 0 ? -1 : 1) * tray.behind
+                        horizontalCenterOffset: (index === 0 ? -1 : 1) * (tray.paired ? place.aside : 2.4 * tray.behind)
+                        verticalCenterOffset: tray.paired ? 0 : (index === 0 ? -1 : 1) * 2.4 * tray.behind
                     }
-                    width: (tray.paired ? 0.96 : 0.95) * tray.card
+                    width: (tray.paired ? 0.96 : 0.82) * tray.card
                     height: width
                     radius: 0.11 * tray.card
                     color: Theme.hollow
-                    border { color: Theme.highContrast ? Theme.slot : Theme.shelf; width: Math.max(1, Theme.unit) }
+                    border { color: Theme.highContrast ? Theme.slot : Theme.shelf; width: Math.max(1, (tray.paired || Theme.highContrast ? 1 : 2) * Theme.unit) }
                 }
             }
             // Two cards side by side; or one on the other, of which only the edge is seen.
