@@ -139,7 +139,6 @@ Item {
                 width: box.beside ? box.textWidth : box.inline ? asked.width - 470 * Theme.unit : asked.width
                 spacing: box.inline ? 0 : content.spacing
                 Balanced {
-                    id: question
                     width: parent.width
                     text: box.item.shown
                     Accessible.name: box.item.text
@@ -151,26 +150,6 @@ Item {
                     }
                     lineHeight: box.item.kind === "page" ? 1.15 : 1
                     horizontalAlignment: Text.AlignLeft
-                    // Where the sign stands: after the last line, if there is room. Set, not bound: lines are laid out
-                    // while bindings are worked out.
-                    property point end
-                    property bool roomy: false
-                    readonly property real sign: 70 * Theme.unit
-                    onLineLaidOut: line => {
-                        if (box.item.kind !== "slider" || !line.isLast)
-                            return
-                        // The hand takes the middle of its square.
-                        const at = line.implicitWidth + 0.5 * Theme.gap - 0.15 * sign
-                        roomy = at + 0.83 * sign <= width
-                        end = Qt.point(Theme.across(at, sign, width), line.y + Math.max((line.height - sign) / 2, line.height - 0.79 * sign))
-                    }
-                    // At the end of the words that say so, and not at the line: there it would favour an answer.
-                    TouchSign {
-                        x: question.end.x
-                        y: question.end.y
-                        size: question.sign
-                        visible: question.roomy
-                    }
                 }
                 // What a number may be, below the question where the number stands beside that.
                 PlainText {

@@ -3,7 +3,6 @@
 pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Controls.Basic
-import QtQuick.Shapes
 import ".."
 
 Item {
@@ -87,8 +86,8 @@ Item {
         width: scale.alone ? Math.min(900 * Theme.unit, scale.width) : scale.width - scale.leftRoom - scale.rightRoom
         height: scale.rail
         padding: 0
-        // With room for the signs at its ends.
-        leftPadding: (scale.rail - scale.thickness) / 2 + 20 * Theme.unit
+        // Its ends stand below the middles of the first point and the last.
+        leftPadding: (scale.rail - scale.thickness) / 2
         rightPadding: leftPadding
         from: scale.lowest
         to: scale.highest
@@ -114,7 +113,7 @@ Item {
         }
 
         background: Rectangle {
-            id: groove
+            id: rod
             x: 0
             y: (slider.height - height) / 2
             width: slider.width
@@ -126,36 +125,27 @@ Item {
             // Where the middle of the handle can be.
             readonly property real inset: slider.leftPadding + scale.thickness / 2
             readonly property real span: slider.width - 2 * inset
-            // The line itself: empty, as a mark on it would draw answers.
             Rectangle {
-                id: track
                 anchors.centerIn: parent
-                width: groove.span + height
-                height: Math.min(34 * Theme.unit, 0.4 * scale.rail)
-                radius: height / 2
-                color: Theme.white
-                border { color: Theme.sea; width: 3 * Theme.unit }
+                width: rod.span
+                height: 4 * Theme.unit
+                color: Theme.sea
             }
-            // It slides both ways, from no place in particular.
+            // Beads show that there is something to touch. There are as many for every slider, whatever its values, and all
+            // are alike: no bead may stand for a value more than another. Between them is as good a place as on them.
             Repeater {
-                model: [-1, 1]
-                ClippedShape {
-                    id: chevron
-                    required property int modelData
-                    width: 14 * Theme.unit
-                    height: 2 * width
-                    x: modelData < 0 ? 0.56 * track.x - width / 2 : groove.width - 0.56 * track.x - width / 2
-                    y: (groove.height - height) / 2
-                    ShapePath {
-                        strokeColor: Theme.sea
-                        strokeWidth: 5 * Theme.unit
-                        capStyle: ShapePath.RoundCap
-                        joinStyle: ShapePath.RoundJoin
-                        fillColor: "transparent"
-                        startX: chevron.modelData < 0 ? chevron.width : 0; startY: 0
-                        PathLine { x: chevron.modelData < 0 ? 0 : chevron.width; y: chevron.height / 2 }
-                        PathLine { x: chevron.modelData < 0 ? chevron.width : 0; y: chevron.height }
-                    }
+                id: beads
+                model: 11
+                Rectangle {
+                    required property int index
+                    readonly property real pitch: rod.span / (beads.count - 1)
+                    x: rod.inset + index * pitch - width / 2
+                    y: (rod.height - height) / 2
+                    width: Math.min(44 * Theme.unit, 0.68 * pitch, 0.45 * scale.rail)
+                    height: width
+                    radius: width / 2
+                    color: Theme.white
+                    border { color: Theme.sea; width: 3 * Theme.unit }
                 }
             }
             FocusRing {
