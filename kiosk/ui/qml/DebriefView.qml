@@ -11,7 +11,7 @@ PageFrame {
     required property string labName
 
     // As much of the height as the text leaves, so that a page that fits does not scroll.
-    readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min((signed && width < height ? most : paired ? 310 : 350) * Theme.unit, room - texts.height - keepsake.crown - keepsake.under - 2 * pad - 2 * rim - (width < height ? 1.1 : 1) * Theme.gap))
+    readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min((signed && width < height ? most : paired ? 326 : 350) * Theme.unit, room - texts.height - keepsake.crown - keepsake.under - 2 * pad - 2 * rim - (paired ? 1.5 : width < height ? 1.1 : 1) * Theme.gap))
     // How large the code may be on an upright page, where the words beside it have to find room.
     readonly property real most: width < height && fits(Theme.size(34), noted, apart, 400) ? 400 : 340
     // How far the white around the code reaches beyond its own frame, for round corners.
@@ -22,8 +22,8 @@ PageFrame {
     // Lines with drawings stand below each other, as large as the page has room for above the card; on a page that has too
     // little for that, without the drawings.
     readonly property bool signed: debrief.lines.length > 0 && debrief.lines[0].sign !== "" && fits(Theme.small, Theme.small, 0.5)
-    // Beside the helper, the first line with a drawing has all of the width, and those after it stand two by two in the order
-    // in which they are read, which leaves all of the width to a last one: as large as there is room for that.
+    // Beside the helper, the first line leads to those after it, which stand two by two close below it, in the order in which
+    // they are read. A last one has all of the width: as large as there is room for that, and for a code that is easy to scan.
     readonly property var rows: inRows(read)
     readonly property var measuredRows: inRows(measures)
     function inRows(all: var): var {
@@ -35,19 +35,33 @@ PageFrame {
         }, [[]])
     }
     readonly property real pairedSize: !accompanied || width <= height || read.length < 3 || read[0].sign === "" ? 0
-        : [36, 35, 34, 33, 32].map(Theme.size).find(size => measuredRows.every(row => tallest(row, size) <= 3)
-            && stacked(size) + (rows.length - 1) * 1.34 * Theme.gap + 345 * Theme.unit <= room) ?? 0
+        // With less room than for a large code there is still a smaller one.
+        : [36, 35, 34].map(Theme.size).find(size => brief(size) && 1.02 * stacked(size) + between + (1.5 * Theme.gap + 342 * Theme.unit) <= room)
+            ?? [36, 35, 34, 33, 32].map(Theme.size).find(size => brief(size) && stacked(size) + between + 345 * Theme.unit <= room) ?? 0
     readonly property bool pairable: pairedSize > 0
     // Two beside each other are cards, with this much around what they say.
     readonly property real inset: 0.75 * Theme.gap
     readonly property real insetAcross: Theme.gap
+    // How far a row is below the one before it: cards are close to the line that leads to them.
+    function step(index: int): real {
+        return index === 0 ? 0 : (index === 1 ? 0.75 : rows[index]?.length > 1 ? 1 : 1.5) * Theme.gap
+    }
+    // Heading and text of the line that leads are one line, where that has room.
+    function runsOn(size: real): bool {
+        return measures[0]?.length === 2 && (measures[0][0] + measures[0][1] + 60) * size / 100 <= 0.97 * column
+    }
+    readonly property real between: rows.reduce((sum, row, index) => sum + step(index), 0)
     // How many lines has the one of this row that has most of them, and how high all rows are.
-    function tallest(row: var, size: real): int {
+    function tallest(row: var, size: real, leads = false): int {
         const width = row.length > 1 ? (column - Theme.gap) / 2 - 2 * insetAcross : column
-        return Math.max(...row.map(widths => broken(widths, size, width - 2.5 * size - Theme.gap)))
+        return leads && runsOn(size) ? 1 : Math.max(...row.map(widths => broken(widths, size, leads ? width : width - 2.5 * size - Theme.gap)))
+    }
+    function brief(size: real): bool {
+        return measuredRows.every((row, index) => tallest(row, size, index === 0) <= 3)
     }
     function stacked(size: real): real {
-        return measuredRows.reduce((sum, row) => sum + (row.length > 1 ? 2 * inset : 0) + Math.max(2.5 * size, tallest(row, size) * (leading + 0.06) * Math.ceil(1.37 * size)), 0)
+        return measuredRows.reduce((sum, row, index) => sum + (row.length > 1 ? 2 * inset : 0)
+            + Math.max(index > 0 ? 2.5 * size : 0, tallest(row, size, index === 0) * (leading + 0.06) * Math.ceil(1.37 * size)), 0)
     }
     readonly property bool paired: signed && pairable
     readonly property real size: paired ? pairedSize : signed ? (width < height ? [38, 36, 34, 32, 30, 29] : [32, 30, 29]).map(Theme.size).find(size => fits(size, noted, apart, most > 340 ? most : 290)) ?? Theme.small
@@ -84,7 +98,7 @@ PageFrame {
         const heading = lines(keptMeasures, 1.08 * Theme.body, width < height ? column - 4 * Theme.gap : beside) * Math.ceil(1.37 * Theme.body)
         const above = width < height ? heading + 0.6 * Theme.gap : 0
         const card = (width < height ? 0 : heading) + 1.38 * Theme.size(72) + noted * Math.ceil(1.37 * cardSize) + (width < height ? 4.1 : cardSize > Theme.small ? 1.8 : 2.6) * Theme.gap
-        return tall + ((pairable ? rows.length : read.length) + 1) * apart * Theme.gap + above + Math.max((width < height ? Math.max(362, most + 72) + 20 : cardSize > Theme.small ? 318 : 266) * Theme.unit, card)
+        return tall + (pairable ? between + 2 * apart * Theme.gap : (read.length + 1) * apart * Theme.gap) + above + Math.max((width < height ? Math.max(362, most + 72) + 20 : cardSize > Theme.small ? 318 : 266) * Theme.unit, card)
     }
     // What is added to that where an upright page has room for it.
     readonly property real further: !signed || width > height ? 0
@@ -131,19 +145,38 @@ PageFrame {
         id: card
         required property var modelData
         property bool bare: false
+        property bool leads: false
         property real tall: said
         readonly property real inset: bare ? 0 : view.inset
-        readonly property alias said: point.height
+        readonly property bool runsOn: leads && view.runsOn(view.size)
+        readonly property real said: runsOn ? lead.height : point.height
         height: tall + 2 * inset
         radius: Theme.radius
         color: bare ? "transparent" : Theme.white
         border { color: Theme.edge; width: bare ? 0 : 3 * Theme.unit }
         Point {
             id: point
+            visible: !card.runsOn
             x: card.bare ? 0 : view.insetAcross
             y: card.inset
             width: card.width - 2 * x
             modelData: card.modelData
+            sign: card.leads ? "" : modelData.sign
+        }
+        Row {
+            id: lead
+            visible: card.runsOn
+            spacing: 0.3 * view.size
+            Repeater {
+                model: card.runsOn ? view.sentences(card.modelData.text) : []
+                PlainText {
+                    required property string modelData
+                    required property int index
+                    text: modelData
+                    font { pixelSize: view.size; bold: index === 0 }
+                    color: Theme.ink
+                }
+            }
         }
     }
     ScrollPane {
@@ -159,8 +192,8 @@ PageFrame {
             readonly property bool cardFirst: keepsake.there && texts.height + keepsake.height + apart > view.room
             width: pane.width
             height: texts.height + keepsake.height + (keepsake.there ? apart : 0)
-            // Lines and card stand further apart than the lines, by half of what is free.
-            readonly property real apart: (view.paired ? 1.34 : 1) * Theme.gap + (view.signed ? Math.max(0, Math.min(1.5 * Theme.gap, (view.room - texts.height - keepsake.height - 1.34 * Theme.gap) / 2)) : 0)
+            // Lines and card stand further apart than the lines, by half of what is free; below cards, as far as their rows.
+            readonly property real apart: view.paired ? 1.5 * Theme.gap : Theme.gap + (view.signed ? Math.max(0, Math.min(1.5 * Theme.gap, (view.room - texts.height - keepsake.height - 1.34 * Theme.gap) / 2)) : 0)
             Item {
                 id: texts
                 y: parts.cardFirst ? keepsake.height + parts.apart : 0
@@ -172,12 +205,13 @@ PageFrame {
                 height: view.paired ? pairs.height : below.height
                 Column {
                     id: pairs
-                    spacing: view.apart * Theme.gap
                     Repeater {
                         model: view.paired ? view.rows : []
                         Row {
                             id: row
                             required property var modelData
+                            required property int index
+                            topPadding: view.step(index)
                             // As high as the one that says more.
                             readonly property real tall: Math.max(...Array.from(children, each => (each as Card)?.said ?? 0))
                             spacing: Theme.gap
@@ -186,6 +220,7 @@ PageFrame {
                                 Card {
                                     width: (texts.width - (row.modelData.length - 1) * row.spacing) / row.modelData.length
                                     bare: row.modelData.length === 1
+                                    leads: row.index === 0
                                     tall: row.tall
                                 }
                             }
@@ -278,6 +313,12 @@ PageFrame {
                 Column {
                     id: told
                     readonly property bool stacked: view.signed && view.width < view.height
+                    // Beside a large code, as large as the lines above the card, where that makes it no higher.
+                    readonly property real large: Theme.size(92)
+                    readonly property bool grand: view.paired && view.debrief.code !== "" && qr.height >= 280 * Theme.unit && grown <= qr.height + 2 * view.rim
+                    readonly property real grown: 1.37 * large + 0.4 * Theme.gap + Math.ceil(1.37 * view.pairedSize)
+                        * (view.lines(view.keptMeasures, 1.08 * view.pairedSize, 0.95 * width) + view.notedMeasures.reduce((sum, widths) => sum + view.lines(widths, view.pairedSize, 0.95 * width), 0))
+                    readonly property real size: grand ? view.pairedSize : view.noted
                     anchors {
                         left: qr.right; leftMargin: (view.debrief.code !== "" ? 1.5 : 0.25) * Theme.gap
                         right: parent.right; rightMargin: stacked ? view.pad : Theme.gap
@@ -289,7 +330,7 @@ PageFrame {
                         width: parent.width
                         visible: !told.stacked
                         text: view.kept
-                        font { pixelSize: Theme.body; bold: true }
+                        font { pixelSize: told.grand ? told.size : Theme.body; bold: true }
                         horizontalAlignment: Text.AlignLeft
                     }
                     // The code stands below its name on an upright screen, and beside it on others.
@@ -303,7 +344,7 @@ PageFrame {
                             y: told.stacked ? 0.35 * Theme.gap : (parent.height - height) / 2
                             width: (told.stacked ? 1 : 0.45) * parent.width
                             text: view.words["debrief-code"]
-                            font { pixelSize: view.noted; bold: true }
+                            font { pixelSize: told.size; bold: true }
                             horizontalAlignment: Text.AlignLeft
                             wrapMode: Text.Wrap
                             color: Theme.ink
@@ -317,7 +358,7 @@ PageFrame {
                             width: parent.width - from
                             text: view.debrief.code
                             horizontalAlignment: Text.AlignLeft
-                            font { pixelSize: Theme.size(view.signed ? 72 : 64); bold: true; letterSpacing: 4 * Theme.unit }
+                            font { pixelSize: told.grand ? told.large : Theme.size(view.signed ? 72 : 64); bold: true; letterSpacing: 4 * Theme.unit }
                             fontSizeMode: Text.HorizontalFit
                             minimumPixelSize: Theme.body
                             color: Theme.sea
@@ -327,7 +368,7 @@ PageFrame {
                         width: parent.width
                         visible: text !== ""
                         text: view.debrief.withdrawing
-                        font.pixelSize: view.noted
+                        font.pixelSize: told.size
                         color: Theme.ink
                     }
                     Balanced {
@@ -335,7 +376,7 @@ PageFrame {
                         width: parent.width
                         visible: text !== ""
                         text: view.debrief.returning
-                        font.pixelSize: view.noted
+                        font.pixelSize: told.size
                         color: Theme.ink
                     }
                     Balanced {
@@ -343,7 +384,7 @@ PageFrame {
                         width: parent.width
                         visible: text !== ""
                         text: view.debrief.questions
-                        font.pixelSize: view.noted
+                        font.pixelSize: told.size
                         color: Theme.ink
                     }
                 }

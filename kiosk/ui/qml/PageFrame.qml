@@ -51,10 +51,14 @@ FocusScope {
         return Math.max(0, Math.min((room - tall) / 3, (width < height ? 6 : 2.5) * Theme.gap))
     }
 
+    // A heading and its text, each as a sentence: a heading has no full stop of its own.
+    function sentences(text: string): var {
+        return text.replace(/([^.,;:!?…。！？])\n/, "$1.\n").split("\n")
+    }
+
     // The last of several lines, if the helper can say it: a bubble holds a short text only.
     function sayable(lines: var): string {
-        // A heading has no full stop of its own.
-        const last = (lines[lines.length - 1]?.text ?? "").replace(/([^.,;:!?…。！？])\n/, "$1. ").replace("\n", " ")
+        const last = sentences(lines[lines.length - 1]?.text ?? "").join(" ")
         return accompanied && lines.length > 1 && last.length <= 130 ? last : ""
     }
 
