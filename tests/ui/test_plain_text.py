@@ -236,7 +236,7 @@ def test_a_picture_in_a_text_is_asked_for_by_no_screen(
         window.screens.avatar.say(picture.format("sentence"))
         monkeypatch.setitem(VOICES, picture.format("voice"), "en-GB")
         answer = health_of_a_robot_whose_voice_is(picture.format("voice"))
-        line = {"name": "robot", "message": answer, "is_ok": True, "is_used": True, "remedy": ""}
+        line = {"name": "robot", "message": answer, "is_ok": True, "is_used": True, "is_due": False, "remedy": ""}
         panel = window.screens.experimenter.parts[2]
         fill_panel(panel)
         panel.show_health({"well": True, "summary": answer, "matters": [], "lines": [line], "more": [line]})
@@ -318,7 +318,7 @@ def fill_panel(panel: PanelScreen) -> None:
     """Show markup in every part of the experimenter's panel."""
     words = dict.fromkeys(_names_of_the_panel(), MARKUP)
     option = [{"value": "one", "label": MARKUP}, {"value": "two", "label": BOLD}]
-    line = {"name": MARKUP, "message": PICTURE, "is_ok": False, "is_used": True, "remedy": BOLD}
+    line = {"name": MARKUP, "message": PICTURE, "is_ok": False, "is_used": True, "is_due": False, "remedy": BOLD}
     panel.set_language(words)
     panel.show_health({"well": False, "summary": MARKUP, "matters": [line], "lines": [line], "more": [line]})
     tile = {"name": "visitors", "title": MARKUP, "value": BOLD, "line": PICTURE}

@@ -322,14 +322,21 @@ class Panel:
     def _under_way(self) -> bool:
         return self._actions.stage not in (Stage.ATTRACT, Stage.OVER)
 
+    def _session_words(self, *, stays_paused: bool) -> str:
+        """Return whether a session is under way, and until when it is paused."""
+        if not self._under_way:
+            return self._catalogue.text("console-session-none")
+        return self._catalogue.text("console-session-stays" if stays_paused else "console-session-paused")
+
     def _choices(self) -> Row:
         """Return what can be chosen, and what is chosen now."""
         booth, actions, told = self._booth, self._actions, self._catalogue.text
         under_way = self._under_way
+        stays_paused = booth.runner.accepts(PauseEnded(at_ms=booth.runner.now_ms())) and not actions.paused_by_panel
         embodiments = booth.embodiments
         robot = next((str(name) for name in embodiments.health if name != EmbodimentName.AVATAR), "")
         return {
-            "session": told("console-session-paused") if under_way else told("console-session-none"),
+            "session": self._session_words(stays_paused=stays_paused),
             "underWay": under_way,
             "conditions": [
                 {"value": each.name if each else AUTOMATIC, "label": self._name(each)}
@@ -357,8 +364,7 @@ class Panel:
             "canBeNext": actions.stage in (Stage.THANKS, Stage.OVER)
             and permission(Action.NEXT, actions.stage).effect is not ActionEffect.REFUSED,
             "muted": embodiments.is_muted,
-            "staysPaused": booth.runner.accepts(PauseEnded(at_ms=booth.runner.now_ms()))
-            and not actions.paused_by_panel,
+            "staysPaused": stays_paused,
             "breaks": [
                 {"value": str(minutes), "label": told("console-break-minutes", minutes=minutes)}
                 for minutes in actions.break_choices()
@@ -392,6 +398,7 @@ WORDS = (
     "console-rest-well",
     "console-mark-well",
     "console-mark-idle",
+    "console-mark-due",
     "console-mark-ill",
     "console-counts",
     "console-counts-unlisted",
@@ -420,6 +427,8 @@ WORDS = (
     "console-mute",
     "console-heard",
     "console-stay-paused",
+    "console-switch-on",
+    "console-switch-off",
     "console-break",
     "console-break-end",
     "console-abort",

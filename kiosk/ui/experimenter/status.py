@@ -48,7 +48,9 @@ class HealthLine:
     remedy: str = ""
     """What the experimenter can do about it, where the message does not say so."""
     is_used: bool = True
-    """False for what is not set up, or not done yet: it is no fault, but nothing is in order there either."""
+    """False for what is not set up, or off on purpose: it is no fault, but nothing is in order there either."""
+    is_due: bool = False
+    """Whether the experimenter has something to do about it, though nothing is wrong."""
 
 
 @dataclass(frozen=True)
@@ -218,7 +220,7 @@ def _database(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
     if state.audit_error:
         return HealthLine(name, state.audit_error, is_ok=False)
     if state.last_backup is None:
-        return HealthLine(name, translate("console-backup-none"), is_used=False)
+        return HealthLine(name, translate("console-backup-none"), is_due=True)
     if state.last_backup.file is None:
         return HealthLine(name, translate("console-backup-failed", why=state.last_backup.why), is_ok=False)
     minutes = max(0, state.clocks.now_ms - state.last_backup.at_ms) // MS_PER_MINUTE

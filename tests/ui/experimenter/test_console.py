@@ -102,6 +102,7 @@ def test_a_session_can_be_left_paused_from_within_the_panel(make_assigner: MakeD
     assert [switch.property(name) for name in ("checked", "solid")] == [False, False]
     assigner.click("action-pause")
     assert choices(assigner)["staysPaused"]
+    assert choices(assigner)["session"] == "Stays paused after closing"
     assert [switch.property(name) for name in ("checked", "solid")] == [True, True]
     assigner.shortcut(Action.PANEL)
     assert assigner.app.screens.kiosk.property("paused")
@@ -319,7 +320,7 @@ def test_one_line_tells_that_all_is_well_or_what_is_not(assigner: Desk, monkeypa
     # It is said once: in the notice, and not in the list of what is well.
     assert shows(assigner.app.window.contentItem(), "Disk: only 100 MiB free: make room this evening")
     assert not shows(assigner.app.window.contentItem(), "Disk")
-    assert shows(assigner.app.window.contentItem(), "Everything else is well")
+    assert shows(assigner.app.window.contentItem(), "No other problems")
 
 
 def test_the_shortcuts_are_one_press_away_and_the_keyboard_is_on_their_page_then(assigner: Desk) -> None:

@@ -159,15 +159,20 @@ def test_the_pin_is_asked_for_before_the_supervisor_that_needs_it() -> None:
     ("state", "name"),
     [
         (replace(WELL, robot=None), "Robot"),
-        (replace(WELL, last_backup=None), "Database"),
         (replace(WELL, voice=NoVoice().health), "Voice"),
     ],
 )
-def test_what_is_not_in_use_or_not_done_is_no_fault_and_not_in_order_either(state: HealthInputs, name: str) -> None:
+def test_what_is_not_in_use_is_no_fault_and_not_in_order_either(state: HealthInputs, name: str) -> None:
     unused = {line.name for line in told(state).values() if not line.is_used}
     assert name in unused
     assert told(state)[name].is_ok
     assert "Clock" not in unused
+
+
+def test_a_copy_that_was_never_made_is_no_fault_but_is_to_be_made() -> None:
+    database = told(replace(WELL, last_backup=None))["Database"]
+    assert (database.is_ok, database.is_due, database.message) == (True, True, "no copy: make one")
+    assert not told(WELL)["Database"].is_due
 
 
 BEGAN = datetime(2027, 3, 1, 9, tzinfo=UTC)

@@ -91,6 +91,8 @@ PanelSection {
             horizontalPadding: actions.edge
             font.pixelSize: actions.lettering
             words: actions.words["console-stay-paused"]
+            whenOn: actions.words["console-switch-on"]
+            whenOff: actions.words["console-switch-off"]
             drawing: "M8.5 5 V19 M15.5 5 V19"
             on: actions.choices.staysPaused
             onClicked: actions.panel.wish("pause", "")

@@ -11,6 +11,17 @@ PanelSection {
     required property bool named
     signal asked()
 
+    // Where its columns begin, if they share that with the list of sessions; and how large what stands in them is written.
+    property list<real> grid: []
+    property real figure: size
+    // Not where a word is longer than its column, nor where there are more columns.
+    readonly property bool gridded: grid.length === 5 && told.length === 3 && !records.listed
+        && records.cells.every(cell => letters.advanceWidth(cell.name) * 1.08 * figure / 100 <= grid[1] - between)
+        && [heading, ...told.map(column => headOf(column))].every((head, at) => own(head) <= gridRoom(at + 1))
+    function gridRoom(at: int): real {
+        return (at === 4 ? room : grid[at + 1]) - grid[at] - (at === 4 ? 0 : 8 * Theme.unit)
+    }
+
     readonly property real between: 0.75 * Theme.gap
     readonly property real room: width - 2 * inset
     readonly property real first: Math.min(0.3 * room, Math.max(0.1 * room, Math.ceil(Math.max(0, ...records.cells.map(cell => letters.advanceWidth(cell.name))) * size / 90)))
@@ -31,6 +42,12 @@ PanelSection {
     function wide(head: string): real {
         return spare >= 0 ? own(head) + spare : all / (told.length + 1)
     }
+    readonly property real step: gridded ? 8 * Theme.unit : between
+    readonly property real firstWide: gridded ? grid[1] - step : first
+    // The columns of numbers, from 0.
+    function wideAt(head: string, at: int): real {
+        return gridded ? gridRoom(at + 1) : wide(head)
+    }
     FontMetrics {
         id: letters
         font.pixelSize: 100
@@ -45,19 +62,19 @@ PanelSection {
     title: words[records.listed ? "console-counts" : "console-counts-unlisted"]
 
     Row {
-        spacing: counts.between
-        PlainText { width: counts.first; text: " "; font.pixelSize: counts.size }
-        PanelCell { anchors.bottom: parent.bottom; width: counts.wide(counts.heading); words: counts.heading; heading: true; number: !counts.records.listed; headSize: counts.headSize }
+        spacing: counts.step
+        PlainText { width: counts.firstWide; text: " "; font.pixelSize: counts.size }
+        PanelCell { anchors.bottom: parent.bottom; width: counts.wideAt(counts.heading, 0); words: counts.heading; heading: true; number: !counts.records.listed && !counts.gridded; headSize: counts.headSize }
         Repeater {
             model: counts.columns
             delegate: PanelCell {
                 required property string modelData
                 anchors.bottom: parent?.bottom
                 visible: counts.told.includes(modelData)
-                width: counts.wide(words)
+                width: counts.wideAt(words, counts.told.indexOf(modelData) + 1)
                 words: counts.headOf(modelData)
                 heading: true
-                number: true
+                number: !counts.gridded
                 headSize: counts.headSize
             }
         }
@@ -67,16 +84,16 @@ PanelSection {
         delegate: Row {
             id: cell
             required property var modelData
-            spacing: counts.between
+            spacing: counts.step
             PlainText {
-                width: counts.first
+                width: counts.firstWide
                 text: cell.modelData.name
-                font { pixelSize: counts.size; bold: true }
+                font { pixelSize: counts.figure; bold: true }
                 color: Theme.ink
                 wrapMode: Text.Wrap
             }
             Item {
-                width: counts.wide(counts.heading)
+                width: counts.wideAt(counts.heading, 0)
                 height: done.height
                 Rectangle {
                     visible: cell.modelData.listed
@@ -94,10 +111,10 @@ PanelSection {
                 }
                 PlainText {
                     id: done
-                    x: cell.modelData.listed ? parent.width * 0.56 : parent.width - width
+                    x: cell.modelData.listed ? parent.width * 0.56 : counts.gridded ? 0 : parent.width - width
                     text: cell.modelData.done
                     Accessible.name: `${text} ${counts.heading}`
-                    font { pixelSize: counts.size; bold: true }
+                    font { pixelSize: counts.figure; bold: true }
                     color: Theme.ink
                 }
             }
@@ -107,12 +124,12 @@ PanelSection {
                     required property int index
                     required property string modelData
                     visible: counts.told.includes(counts.columns[index])
-                    width: counts.wide(column)
+                    width: counts.wideAt(column, counts.told.indexOf(counts.columns[index]) + 1)
                     words: modelData
                     column: counts.headOf(counts.columns[index])
-                    number: true
+                    number: !counts.gridded
                     strong: modelData !== "0"
-                    size: counts.size
+                    size: counts.figure
                 }
             }
         }

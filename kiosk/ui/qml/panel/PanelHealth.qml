@@ -9,9 +9,11 @@ PanelSection {
 
     required property PanelScreen panel
     property bool double: false
+    // What lies between two columns.
+    property real gutter: Theme.gap
     property real spread: 0
     readonly property var words: panel.words
-    readonly property var none: ({ name: words["console-alarms"], message: words["console-alarms-none"], is_ok: true, is_used: true })
+    readonly property var none: ({ name: words["console-alarms"], message: words["console-alarms-none"], is_ok: true, is_used: true, is_due: false })
     readonly property var lines: panel.alarms.length > 0 ? panel.health.lines : [...panel.health.lines, none]
 
     // What a wide screen has left is shared among the lines.
@@ -27,10 +29,10 @@ PanelSection {
 
     Grid {
         id: table
-        readonly property real column: (parent.width - (columns - 1) * columnSpacing) / columns
+        readonly property real column: Math.floor((parent.width - (columns - 1) * columnSpacing) / columns)
         width: parent.width
         columns: health.double ? 2 : 1
-        columnSpacing: Theme.gap
+        columnSpacing: health.gutter
         rowSpacing: health.each > 0 ? 0 : (health.panel.health.matters.length > 2 ? 8 : 14) * Theme.unit + health.spread
         Repeater {
             model: health.lines

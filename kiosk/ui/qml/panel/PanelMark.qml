@@ -1,4 +1,5 @@
-// How something is, told by shape and colour: a tick, a hollow ring for what is not in use or not done, or a triangle.
+// How something is, told by shape and colour: a tick, a hollow ring for what is not in use, an empty box for what is to be
+// done, a disc for what is under way, or a triangle for what is not well.
 pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Shapes
@@ -9,10 +10,13 @@ Item {
 
     required property bool well
     property bool idle: false
+    property bool due: false
+    property bool running: false
+    readonly property real stroke: Math.max(2, Math.round(0.11 * size))
     // What it says to those who cannot see it, where no words beside it do.
     property string words: ""
     property real size: Theme.dense
-    property color tone: well ? Theme.sea : Theme.deepAmber
+    property color tone: well && !due ? Theme.sea : Theme.deepAmber
     // As high as a capital, and level with those of the words beside it: drawn, for a letter may come from another font.
     readonly property real side: Math.round(0.74 * size)
     readonly property real above: Math.round(letters.ascent - 0.36 * size - side / 2)
@@ -28,16 +32,16 @@ Item {
         font.pixelSize: mark.size
     }
     Rectangle {
-        visible: mark.well && mark.idle
+        visible: mark.well && (mark.idle || mark.due || mark.running)
         y: mark.above
         width: mark.side
         height: mark.side
-        radius: mark.side / 2
-        color: "transparent"
-        border { color: mark.tone; width: Math.max(2, Math.round(0.11 * mark.size)) }
+        radius: mark.due ? 0.15 * mark.side : mark.side / 2
+        color: mark.running ? mark.tone : "transparent"
+        border { color: mark.tone; width: mark.stroke }
     }
     Shape {
-        visible: mark.well && !mark.idle
+        visible: mark.well && !mark.idle && !mark.due && !mark.running
         y: mark.above
         width: mark.side
         height: mark.side

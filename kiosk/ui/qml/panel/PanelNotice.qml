@@ -8,11 +8,15 @@ Rectangle {
 
     required property var health
     required property real size
-    readonly property color front: health.well ? Theme.white : Theme.ink
+    readonly property color front: Theme.ink
+    readonly property color sign: health.well ? Theme.sea : Theme.deepAmber
+    // The bar at its edge has the colour that warns; the ground is pale, so that the actions are seen first.
+    readonly property real bar: 14 * Theme.unit
 
     // What to do stands behind what is wrong, in a column of its own, where both fit in one line; otherwise below it.
     // They are written a little smaller if they fit so.
-    readonly property real room: width - 2 * Theme.gap - 1.4 * size
+    readonly property real room: width - 2 * inset - 1.4 * size
+    readonly property real inset: Math.round(1.1 * Theme.gap)
     readonly property real whole: widest(bold, health.matters.map(matter => said(matter)))
     readonly property real both: whole + widest(plain, health.matters.map(matter => matter.remedy))
     readonly property real fitting: Math.min(1, (room - 1.5 * Theme.gap) / both)
@@ -31,6 +35,19 @@ Rectangle {
     radius: Theme.radius
     color: health.well ? Theme.sea : Theme.amber
 
+    Rectangle {
+        readonly property real line: 2 * Theme.unit
+        x: Theme.across(notice.bar, width, parent.width)
+        y: line
+        width: parent.width - notice.bar - line
+        height: parent.height - 2 * line
+        radius: notice.radius - line
+        topLeftRadius: Theme.mirrored ? radius : 0
+        bottomLeftRadius: Theme.mirrored ? radius : 0
+        topRightRadius: Theme.mirrored ? 0 : radius
+        bottomRightRadius: Theme.mirrored ? 0 : radius
+        color: notice.health.well ? Theme.white : Theme.cautious
+    }
     FontMetrics {
         id: bold
         font { pixelSize: notice.size; bold: true }
@@ -42,7 +59,7 @@ Rectangle {
     Column {
         id: sentence
         objectName: "panel-summary"
-        anchors { left: parent.left; right: parent.right; margins: Theme.gap; verticalCenter: parent.verticalCenter }
+        anchors { left: parent.left; right: parent.right; margins: notice.inset; verticalCenter: parent.verticalCenter }
         spacing: (notice.beside ? 4 : 10) * Theme.unit
         Row {
             visible: notice.health.well
@@ -50,7 +67,7 @@ Rectangle {
             PanelMark {
                 well: true
                 size: notice.size
-                tone: notice.front
+                tone: notice.sign
             }
             PlainText {
                 width: notice.room
@@ -70,7 +87,7 @@ Rectangle {
                 PanelMark {
                     well: false
                     size: notice.written
-                    tone: notice.front
+                    tone: notice.sign
                 }
                 // A matter's further lines stand below its words, and not below its mark.
                 Flow {

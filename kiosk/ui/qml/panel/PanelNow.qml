@@ -36,7 +36,8 @@ Rectangle {
         lettering: now.size
         title: now.stage?.title ?? ""
         value: now.stage?.value ?? ""
-        line: [now.stage?.line ?? "", now.panel.choices.underWay ? now.panel.choices.session : ""].filter(each => each !== "").join(Theme.upright && now.wide ? "\n" : " · ")
+        first: now.panel.choices.underWay ? now.panel.choices.session : ""
+        line: now.stage?.line ?? ""
     }
     Rectangle {
         x: now.wide ? now.from + (Theme.upright ? 0.1 : -0.4) * Theme.gap : now.inset

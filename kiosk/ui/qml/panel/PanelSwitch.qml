@@ -1,4 +1,4 @@
-// A button of the panel that turns one thing on and off, and shows which of the two it is: filled when on, outlined when off.
+// A button of the panel that turns one thing on and off, and says which of the two it is: filled when on, outlined when off.
 pragma ComponentBehavior: Bound
 import QtQuick
 import ".."
@@ -7,22 +7,39 @@ PanelButton {
     id: bar
 
     required property bool on
+    // What stands beside the knob: that it is on, and that it is off.
+    required property string whenOn
+    required property string whenOff
     readonly property real knob: 40 * Theme.unit
 
     choosable: true
     chosen: on
     verticalPadding: 4 * Theme.unit
-    ground: Theme.touchable
     readonly property real between: 0.6 * Theme.gap
-    // As wide in both, so that its words stay where they are.
-    font.bold: true
     Accessible.role: Accessible.CheckBox
 
     contentItem: Item {
         id: parts
         readonly property real before: bar.sign > 0 ? bar.sign + 0.6 * bar.font.pixelSize : 0
-        implicitWidth: before + letters.implicitWidth + track.width + bar.between
+        readonly property real behind: bar.between + Math.ceil(state.width) + 0.85 * bar.between + track.width
+        implicitWidth: before + Math.ceil(natural.advanceWidth(bar.words)) + 2 * Theme.unit + behind
         implicitHeight: Math.max(letters.implicitHeight, track.height)
+        // As wide as in bold, so that its words stay where they are.
+        FontMetrics {
+            id: natural
+            font { family: bar.font.family; pixelSize: bar.font.pixelSize; bold: true }
+        }
+        PlainText {
+            id: state
+            x: Theme.across(parts.width - track.width - 0.85 * bar.between - width, width, parts.width)
+            y: (parts.height - height) / 2
+            width: Math.ceil(Math.max(natural.advanceWidth(bar.whenOn), natural.advanceWidth(bar.whenOff)))
+            text: bar.on ? bar.whenOn : bar.whenOff
+            font: bar.font
+            color: bar.front
+            horizontalAlignment: Text.AlignRight
+            Accessible.ignored: true
+        }
         Drawing {
             visible: bar.drawing !== ""
             x: Theme.across((bar.sign - width) / 2, width, parts.width)
@@ -35,7 +52,7 @@ PanelButton {
             id: letters
             x: Theme.across(parts.before, width, parts.width)
             y: (parts.height - height) / 2
-            width: parts.width - parts.before - track.width - bar.between
+            width: parts.width - parts.before - parts.behind
             text: bar.words
             font: bar.font
             color: bar.front

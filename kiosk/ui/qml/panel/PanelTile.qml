@@ -9,6 +9,8 @@ Item {
     required property string title
     required property string value
     required property string line
+    // What matters more than that line, and stands before it or above.
+    property string first: ""
     // How large the number is.
     property real size: Theme.dense * 1.6
     property real lettering: Theme.dense
@@ -35,9 +37,29 @@ Item {
             wrapMode: Text.Wrap
         }
         PlainText {
+            id: before
+            visible: text !== ""
+            width: parent.width
+            text: tile.first
+            font.pixelSize: 1.22 * tile.lettering
+            color: Theme.ink
+            wrapMode: Text.Wrap
+            // Behind it, where both fit in one line.
+            PlainText {
+                id: behind
+                readonly property real gap: 0.7 * tile.lettering
+                visible: tile.first !== "" && before.implicitWidth + gap + implicitWidth <= tile.width
+                x: Theme.across(before.implicitWidth + gap, width, before.width)
+                y: before.baselineOffset - baselineOffset
+                text: tile.line
+                font.pixelSize: tile.lettering
+                color: Theme.faintInk
+            }
+        }
+        PlainText {
             width: parent.width
             text: tile.line
-            visible: text !== ""
+            visible: text !== "" && !behind.visible
             font.pixelSize: tile.lettering
             color: Theme.faintInk
             wrapMode: Text.Wrap

@@ -33,6 +33,14 @@ Item {
     readonly property bool calm: !wide && Theme.textSize <= 1.15 && panel.health.well && panel.alarms.length === 0 && panel.records.resumable.length === 0 && !panel.choices.canBeNext && !(panel.choices.onBreak ?? false)
     readonly property real spread: calm ? Math.floor(Math.max(0, Math.min(24 * Theme.unit, (seen - first.height - (1190 + 60 * rows) * Theme.unit) / (rows + 9)))) : 0
 
+    // On an upright screen all second columns begin in line, and with them the fourth of the grid that both tables share.
+    readonly property real gutter: Math.round(40 * Theme.unit)
+    readonly property bool tabled: Theme.textSize <= 1.15
+    readonly property real across: Math.floor(counts.width - 2 * counts.inset)
+    readonly property real fourth: Math.floor((across - gutter) / 2) + gutter
+    readonly property list<real> grid: (!tabled ? [] : wide ? [0, 0.142, 0.29, 0.486, 0.775].map(each => each * across) : [0, fourth / 3, 2 * fourth / 3, fourth, fourth + 0.235 * across]).map(each => Math.round(each))
+    readonly property real figure: tabled && !wide && panel.health.matters.length < 3 && panel.records.sessions.length < 6 ? 32 * Theme.textSize * Theme.unit : size
+
     height: wide ? Math.max(right.height, left.y + left.height, middle.y + middle.height) : middle.y + middle.height
 
     Column {
@@ -70,6 +78,7 @@ Item {
             panel: today.panel
             size: today.size
             double: !today.wide && Theme.textSize <= 1.15
+            gutter: today.gutter
             least: today.room
             spread: today.spread
             // Its heading is level with that of the counts beside it.
@@ -89,6 +98,8 @@ Item {
             size: today.size
             words: today.words
             records: today.panel.records
+            grid: today.grid
+            figure: today.figure
             named: today.panel.choices.named
             onAsked: today.panel.wish("names", "")
         }
@@ -96,6 +107,8 @@ Item {
             width: parent.width
             apart: today.airy
             size: today.size
+            grid: counts.gridded ? today.grid : []
+            figure: today.figure
             least: Math.floor(today.wide ? today.foot - today.below - counts.height - today.space : today.seen - middle.y - y)
             words: today.words
             records: today.panel.records

@@ -77,6 +77,7 @@ FocusScope {
             words: view.words["console-close"]
             filled: true
             horizontalPadding: 28 * Theme.unit
+            ringInside: true
             font.pixelSize: view.lettering
             focus: true
             onClicked: view.panel.wish("panel", "")
@@ -173,6 +174,7 @@ FocusScope {
             visible: view.onToday && view.panel.shortcuts.rows.length > 0
             words: view.words["console-shortcuts"]
             horizontalPadding: 28 * Theme.unit
+            ringInside: true
             font.pixelSize: view.lettering
             onClicked: {
                 view.onToday = false
