@@ -466,7 +466,7 @@ def test_cards_and_scales_stand_at_the_same_places_on_all_pages_of_four_ratings(
     screens, ground = kiosk[0].screens, kiosk[0].shown.contentItem()
     assert list(shown_in(kiosk, layout, ("four ratings",))) == ["four ratings"]
     screens.avatar.leave(away=True)
-    places = set()
+    places, gaps = set(), set[int]()
     for first in range(0, len(rated), 4):
         page = rated[first : first + 4]
         screens.form.show(page, 1, 5)
@@ -477,9 +477,14 @@ def test_cards_and_scales_stand_at_the_same_places_on_all_pages_of_four_ratings(
         heights = [round(scale.y()) for scale in scales]
         edges = [(round(scale.x()), round(scale.width()), round(scale.height())) for scale in scales]
         places.add((tuple(round(whole(card).y()) for card in cards if card), tuple(heights), tuple(edges)))
+        if layout.height > layout.width:
+            asked = {text.property("text").replace("\xa0", " "): painted(text).bottom() for text in texts(ground)}
+            shown = [shown["shown"].replace("\xa0", " ") for shown in screens.form.property("items")]
+            gaps |= {round(scale.y() - asked[text]) for text, scale in zip(shown, scales, strict=True)}
     screens.avatar.leave(away=False)
     ((cards_at, _, _),) = places
     assert len(set(cards_at)) == 4
+    assert len(gaps) <= 1, "a statement stands at another distance above its scale"
 
 
 @pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1280, 800), Layout(1080, 1920)], ids=str)

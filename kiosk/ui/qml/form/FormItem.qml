@@ -135,9 +135,10 @@ Item {
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.questionHeight > 0 ? content.spacing / 4 + (asked.asks - height) / 2 : 0
+                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.questionHeight > 0 ? content.spacing / 8 + asked.asks - height : 0
                 width: box.beside ? box.textWidth : box.inline ? asked.width - 470 * Theme.unit : asked.width
-                spacing: box.inline ? 0 : content.spacing
+                // Where height is kept for two lines, a word below one line moves no scale.
+                spacing: box.inline ? 0 : box.questionHeight > 0 ? 4 * Theme.unit : content.spacing
                 Balanced {
                     width: parent.width
                     text: box.item.shown

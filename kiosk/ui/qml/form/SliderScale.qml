@@ -139,9 +139,10 @@ Item {
                 Rectangle {
                     required property int index
                     readonly property real pitch: rod.span / (beads.count - 1)
-                    x: rod.inset + index * pitch - width / 2
-                    y: (rod.height - height) / 2
-                    width: Math.min(44 * Theme.unit, 0.68 * pitch, 0.45 * scale.rail)
+                    // On whole pixels, or small beads look square.
+                    x: Math.round(rod.inset + index * pitch - width / 2)
+                    y: Math.round((rod.height - height) / 2)
+                    width: 2 * Math.round(Math.min(44 * Theme.unit, 0.68 * pitch, 0.45 * scale.rail) / 2)
                     height: width
                     radius: width / 2
                     color: Theme.white
