@@ -118,7 +118,8 @@ PageFrame {
     readonly property bool tight: room < 720 * Theme.unit
 
     // Whether a few plain questions have the page to themselves.
-    readonly property bool calm: accompanied && !tight && Theme.textSize <= 1.15 && form.items.length <= 3
+    readonly property bool calm: accompanied && few
+    readonly property bool few: !tight && Theme.textSize <= 1.15 && form.items.length <= 3
         && form.items.every(item => ["integer", "single", "text"].includes(item.kind) && !item.exempts)
 
     // How large the options of such a page are where all stand in columns, and how high; null where they do not fit so.
@@ -126,7 +127,7 @@ PageFrame {
         if (!calm || upright || alone || mirrored)
             return null
         for (const size of [34, 33, 32, 31, 30, 29].map(Theme.size))
-            for (const height of [88, 84, 80, 78, 76, 72, 68])
+            for (const height of [88, 84, 80, 79, 78, 76, 72, 68])
                 if (form.items.every(item => tiled(item, size)) && tiledHeight(height) - 16 * Theme.unit <= room)
                     return {size, height: height * Theme.unit}
         return null
@@ -146,12 +147,29 @@ PageFrame {
         // Small letters are set on whole pixels, and take a little more.
         return item.options.every(option => 1.01 * thin.advanceWidth(option.text) * size / 100 <= half)
     }
+    // Whether they have an upright one, whose height is for large options.
+    readonly property bool easy: few && upright && !alone
+    // How large these options are: as large as leaves them in as many rows as the usual size does.
+    readonly property real optionSize: {
+        if (!easy)
+            return Theme.size(34)
+        const usual = form.items.map(item => columnsAt(item, Theme.size(34)))
+        return [40, 38, 36].map(Theme.size).find(size => form.items.every((item, at) => columnsAt(item, size) === usual[at])) ?? Theme.size(34)
+    }
+    function columnsAt(item: var, size: real): int {
+        if (item.kind !== "single")
+            return 0
+        const gap = 14 * Theme.unit, many = item.options.length
+        const widest = Math.max(...item.options.map(option => 1.01 * thin.advanceWidth(option.text) * size / 100)) + 104 * Theme.unit
+        const fit = Math.min(many, Math.floor((inner + gap) / (widest + gap)))
+        return fit < 1 ? 0 : Math.ceil(many / Math.ceil(many / fit))
+    }
     function tiledHeight(height: real): real {
         let tall = 0
         for (const item of form.items) {
             const lines = Math.ceil(letters.advanceWidth(item.text) * asking / 100 / inner)
             const rows = Math.ceil((item.options?.length ?? 0) / 2)
-            tall += form.hidden.includes(item.id) ? 0 : item.kind === "integer" ? 124 * Theme.unit
+            tall += form.hidden.includes(item.id) ? 0 : item.kind === "integer" ? 130 * Theme.unit
                 : lines * 1.37 * asking + (48 + (height + 12) * rows) * Theme.unit
         }
         return tall
@@ -170,6 +188,9 @@ PageFrame {
     // Whether the keys of a number stand in the helper's place.
     readonly property bool keysBeside: keyboard.visible && keyboard.numbers
 
+    // Or over other questions.
+    readonly property bool keysOver: keyboard.visible && keyboard.numbers && upright && !alone
+
     wider: !alone && rates()
     title: form.title
     // A long title of a questionnaire's own would reach the controls.
@@ -178,6 +199,7 @@ PageFrame {
     quiet: form.skips || !form.complete
     way.waits: !form.skips && !form.complete
     way.reason: form.waiting
+    way.opacity: keysOver ? 0.3 : 1
     label: words[form.skips ? "form-skip" : "form-next"]
     beside: progress
     besides: form.progress !== ""
@@ -248,7 +270,7 @@ PageFrame {
     // such place.
     function padPlace(wide: real, tall: real): point {
         if (upright) {
-            const top = keyboard.card === null ? 0 : begin + home.y + keyboard.card.mapToItem(home, 0, 0).y, room = 36 * Theme.unit
+            const top = keyboard.card === null ? 0 : begin + home.y + keyboard.card.mapToItem(home, 0, 0).y, room = keyboard.away
             const under = top + (keyboard.card?.height ?? 0) + room
             const edge = (width - column) / 2, across = Math.max(edge, Math.min(width - edge - wide, keyboard.aim.x - wide / 2))
             return Qt.point(across, under + tall <= height ? under : Math.max(0, top - room - tall))
@@ -257,7 +279,7 @@ PageFrame {
         const beside = keyboard.field === null ? 0
             : Math.max(0, Math.min(height - tall, foot - tall - Theme.gap, begin + home.y + keyboard.field.mapToItem(home, 0, keyboard.field.height / 2).y - tall / 2))
         if (Math.max(before, after) >= wide)
-            return Qt.point(after >= wide ? width + (after - (accompanied ? Theme.gap : 0) - wide) / 2 : -(before + wide) / 2, Math.max(4.4 * Theme.gap, Math.min(begin + home.y, 6.5 * Theme.gap)))
+            return Qt.point(after >= wide ? width + (after - (accompanied ? Theme.gap : 0) - wide) / 2 : -(before + wide) / 2, Math.max(4.4 * Theme.gap, Math.min(begin + home.y, 4.9 * Theme.gap)))
         if ((width - column) / 2 >= wide)
             return Qt.point(width - wide - ((width - column) / 2 - wide) / 2, beside)
         if (Window.height - height >= tall)
@@ -343,7 +365,24 @@ PageFrame {
                 let sum = 0
                 for (let i = 0; i < boxes.count; i++) {
                     const box = boxes.itemAt(i) as FormItem
-                    sum += box?.there ? box.plain + (view.tiles !== null ? 16 : view.questionHeight > 0 ? 24 : 30) * Theme.unit : 0
+                    sum += box?.there ? box.plain + (view.tiles !== null ? 16 : view.questionHeight > 0 || view.easy ? 24 : 30) * Theme.unit : 0
+                }
+                return sum
+            }
+            // How much higher than usual each row of options of an upright page is.
+            readonly property real grown: {
+                let rows = 0
+                for (let i = 0; i < boxes.count; i++) {
+                    const box = boxes.itemAt(i) as FormItem
+                    rows += box?.there ? box.rows : 0
+                }
+                return view.easy && rows > 0 ? Math.max(0, Math.min(16 * Theme.unit, Math.floor((room - plain) / rows))) : 0
+            }
+            readonly property real grownBy: {
+                let sum = 0
+                for (let i = 0; i < boxes.count; i++) {
+                    const box = boxes.itemAt(i) as FormItem
+                    sum += box?.there ? box.rows * grown : 0
                 }
                 return sum
             }
@@ -355,7 +394,7 @@ PageFrame {
                 }
                 return sum
             }
-            readonly property real loosened: (view.calm || view.rated) && addable > 0 ? Math.max(0, Math.min(1, (room - plain) / addable)) : 0
+            readonly property real loosened: (view.calm || view.rated) && addable > 0 ? Math.max(0, Math.min(1, (room - plain - grownBy) / addable)) : 0
             readonly property real tall: {
                 let sum = 0
                 for (let i = 0; i < boxes.count; i++) {
@@ -386,6 +425,9 @@ PageFrame {
                     pairHeight: view.tiles?.height ?? 0
                     asking: view.asking
                     loosened: pane.loosened
+                    grown: pane.grown
+                    optionSize: view.optionSize
+                    easy: view.easy
                     large: view.width < view.height && view.form.items.length < 5
                     beside: view.own || view.rowText > 0 && view.scales(modelData)
                     own: view.own
@@ -397,6 +439,8 @@ PageFrame {
                     scaleWidth: view.scaleWidth
                     questionHeight: view.questionHeight
                     headed: !view.repeats(index)
+                    // Over an upright page the keys cover other questions: these step back until they can be seen again.
+                    opacity: view.keysOver && keyboard.card !== asked ? 0.3 : 1
                     inline: view.inline(modelData)
                     onEntered: field => {
                         keyboard.card = asked
@@ -414,7 +458,7 @@ PageFrame {
         // As wide as what the helper says, or as the cards.
         spare: view.upright ? view.column
              : view.accompanied ? Window.width - view.before - view.width - Theme.gap : 0
-        away: x < 0 ? (view.width - view.column) / 2 - x - width : x - (view.width + view.column) / 2
+        away: view.upright ? Math.min(36 * Theme.unit, pane.spacing) : x < 0 ? (view.width - view.column) / 2 - x - width : x - (view.width + view.column) / 2
         aim: {
             const middle = field?.mapToItem(home, field.width / 2, field.height / 2) ?? Qt.point(0, 0)
             return Qt.point(home.mapToItem(view, middle.x, 0).x, view.begin + home.y + middle.y)

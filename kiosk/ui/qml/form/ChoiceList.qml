@@ -16,7 +16,22 @@ Flow {
     property bool large: false          // whether there is much height for the page
     // How large they are in two columns, all as wide; 0 where they do not stand so.
     property real paired: 0
-    required property real tall         // how high an option is at least
+    required property real usual        // how high an option is at least
+    // How much higher it is where there is height for that, and how large its letters are then.
+    property real grown: 0
+    property bool easy: false
+    property real size: Theme.size(34)
+    readonly property real tall: usual + grown
+    // In how many rows they stand if all are as wide, and how high these are without what is added.
+    readonly property int rows: tiled ? Math.ceil(options.length / columns) : stacked ? options.length : 0
+    readonly property real least: {
+        if (rows === 0 || flowing)
+            return height
+        let most = usual
+        for (let i = 0; i < buttons.count; i++)
+            most = Math.max(most, (buttons.itemAt(i) as Choosable)?.implicitHeight ?? 0)
+        return rows * most + (rows - 1) * spacing
+    }
     signal picked(string option)
 
     // Large texts on a wide screen leave little room around them.
@@ -27,7 +42,7 @@ Flow {
     // Where there is room for it, all are as wide, in rows that are as full; one below the other only on an upright screen.
     readonly property bool tiled: !stacked && !dense && (columns > 1 || width < 1020 * Theme.unit)
     // How far apart they are in columns, and in rows that are filled.
-    readonly property real packed: !dense && !alone && width >= 1020 * Theme.unit ? 8 * Theme.unit : large ? 18 * Theme.unit : 0.5 * Theme.gap
+    readonly property real packed: !dense && !alone && width >= 1020 * Theme.unit ? 8 * Theme.unit : large ? (easy ? 14 : 18) * Theme.unit : 0.5 * Theme.gap
     readonly property real apart: 0.67 * Theme.gap
     readonly property real widest: {
         let most = 0
@@ -74,7 +89,8 @@ Flow {
         for (let i = 0; i < buttons.count; i++)
             wishes.push((buttons.itemAt(i) as Choosable)?.implicitWidth ?? 0)
         if (paired > 0)
-            return wishes.map(() => Math.floor((width - gridGap) / 2))
+            // The last of an odd number has its row to itself.
+            return wishes.map((_, at) => Math.floor(at === wishes.length - 1 && at % 2 === 0 ? width : (width - gridGap) / 2))
         // As many rows as they would take side by side, or one less than in columns of their own.
         let most = 1, end = -packed
         for (const wish of wishes) {
@@ -142,7 +158,7 @@ Flow {
             height: Math.max(implicitHeight, list.tall)
             width: list.stacked ? list.width : list.flowing ? (list.gridded.length > 0 ? list.gridded : list.filled)[index] : list.tiled ? list.tile : Math.min(implicitWidth, list.width)
             words: modelData.text
-            font.pixelSize: list.paired > 0 ? list.paired : list.alone ? Theme.body : list.large ? Theme.size(34) : Theme.reading
+            font.pixelSize: list.paired > 0 ? list.paired : list.alone ? Theme.body : list.large ? list.size : Theme.reading
             leftPadding: (list.narrow ? 14 : list.paired > 0 ? 18 : list.even ? 20 : 22) * Theme.unit
             rightPadding: (list.narrow ? 16 : list.paired > 0 ? 9 : list.even ? 16 : 30) * Theme.unit
             verticalPadding: (list.alone ? 16 : list.narrow ? 3 : 10) * Theme.unit

@@ -51,12 +51,19 @@ Item {
     property bool calm: false
     // How much of what can be added to the distances of this page is added, from 0 to 1.
     property real loosened: 0
-    // How high it is without that, and how much can be added.
-    readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asked.asks + (way.active ? usualSpacing + way.height : 0)) + 2 * usualMargin
+    // How large the options of an upright page are, how many rows they have, and how much higher than usual these are.
+    property real optionSize: Theme.size(34)
+    property real grown: 0
+    // Whether they are given the height that margins have elsewhere.
+    property bool easy: false
+    readonly property int rows: choices?.rows ?? 0
+    readonly property ChoiceList choices: way.item as ChoiceList
+    // How high it is without all that, and how much can be added to the distances.
+    readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asked.asks + (way.active ? usualSpacing + (choices?.least ?? way.height) : 0)) + 2 * usualMargin
     readonly property real addable: alone || beside ? 0 : 32 * Theme.unit
-    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : questionHeight > 0 ? Theme.textSize > 1 ? 16 : 32 : airy ? 22 : paired > 0 ? 12 : calm ? 14 : 8) * Theme.unit
+    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : questionHeight > 0 ? Theme.textSize > 1 ? 16 : 32 : easy ? 18 : airy ? 22 : paired > 0 ? 12 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
-    readonly property real usualMargin: alone ? 0 : own ? Math.max(10 * Theme.unit, rowMargin - taken / 2) : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : questionHeight > 0 ? 12 : airy ? 26 : paired > 0 ? inline ? 11 : 16 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
+    readonly property real usualMargin: alone ? 0 : own ? Math.max(10 * Theme.unit, rowMargin - taken / 2) : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : questionHeight > 0 ? 12 : easy ? inline ? 26 : 20 : airy ? 26 : paired > 0 ? inline ? 8 : 16 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
     readonly property real taken: flank ? Math.max(0, told.height - rowHeight) : 0
     // Letters have some air above them already; what stands below them does not.
@@ -158,7 +165,7 @@ Item {
                     visible: box.inline && text !== ""
                     text: box.item.range ?? ""
                     horizontalAlignment: Text.AlignLeft
-                    font.pixelSize: box.large ? Theme.size(30) : Theme.small
+                    font.pixelSize: box.large || box.paired > 0 ? Theme.size(32) : Theme.small
                     wrapMode: Text.Wrap
                     color: Theme.faintInk
                 }
@@ -298,9 +305,12 @@ Item {
             alone: box.alone
             dense: box.form.items.length > 3
             large: box.airy
+            size: box.optionSize
+            grown: box.grown
+            easy: box.easy
             paired: box.paired
             gridGap: (box.paired > 0 ? 12 : box.calm ? 18 : 12) * Theme.unit
-            tall: box.paired > 0 ? box.pairHeight : (box.tight || (Theme.textSize > 1.15 && !box.large) || box.form.items.length > 3 ? 62 : box.airy ? 84 : 76) * Theme.unit
+            usual: box.paired > 0 ? box.pairHeight : (box.tight || (Theme.textSize > 1.15 && !box.large) || box.form.items.length > 3 ? 62 : box.airy ? 84 : 76) * Theme.unit
             onPicked: option => several ? box.form.toggle(box.item.id, option) : box.form.choose(box.item.id, option)
         }
     }

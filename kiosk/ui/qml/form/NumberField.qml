@@ -98,7 +98,7 @@ Row {
         form: number.form
         minus: number.minus
         // As wide as the longest number; digits of another script may be wider still.
-        width: Math.max(228 * Theme.unit * Theme.textSize, Math.max(metrics.advanceWidth(number.widest), contentWidth) + leftPadding + rightPadding + 8 * Theme.unit)
+        width: Math.max(Math.max(260, 228 * Theme.textSize) * Theme.unit, Math.max(metrics.advanceWidth(number.widest), contentWidth) + leftPadding + rightPadding + 8 * Theme.unit)
         height: 1.37 * Theme.body + 32 * Theme.unit
         topPadding: 2 * Theme.unit
         bottomPadding: 2 * Theme.unit

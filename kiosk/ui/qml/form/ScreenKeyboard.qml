@@ -17,7 +17,7 @@ Rectangle {
     required property var words
     // Where a number's keys stand.
     required property point place
-    // How much width they have beside a wide page or over an upright one, and how far from the cards they are beside it.
+    // How much width they have beside a wide page or over an upright one, and how far from the cards they are.
     property real spare: 0
     property real away: 0
     // Where in the page the middle of the field is.
@@ -43,7 +43,7 @@ Rectangle {
     readonly property bool roomy: Window.width - parent.width >= 440 * Theme.unit
     readonly property real keyWidth: numbers ? flat ? fitting(spare - 190 * Theme.unit - gap, 5, 90, 160)
         : broad ? 150 * Theme.unit : roomy ? fitting(spare, 3, 108, 160) : 80 * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
-    readonly property real keyHeight: (numbers ? (flat ? 140 : roomy ? 70 : 68) : 60) * Theme.unit
+    readonly property real keyHeight: (numbers ? (flat ? 140 : roomy ? 80 : 68) : 60) * Theme.unit
 
     // Whether they point at their field, at one side of it.
     readonly property bool points: numbers && (broad ? aim.x > x + radius + 36 * Theme.unit && aim.x < x + width - radius - 36 * Theme.unit
@@ -122,8 +122,8 @@ Rectangle {
         id: tail
         visible: keyboard.points
         readonly property bool after: keyboard.broad ? keyboard.aim.y > keyboard.y : keyboard.x < 0
-        width: keyboard.broad ? 32 * Theme.unit : Math.max(30 * Theme.unit, Math.min(96 * Theme.unit, keyboard.away))
-        height: (keyboard.broad ? 64 : 48) * Theme.unit
+        width: keyboard.broad ? Math.min(32 * Theme.unit, keyboard.away - 4 * Theme.unit) : Math.max(30 * Theme.unit, Math.min(96 * Theme.unit, keyboard.away))
+        height: keyboard.broad ? 2 * width : 48 * Theme.unit
         x: keyboard.broad ? keyboard.aim.x - keyboard.x - width / 2 : after ? keyboard.width : -width
         y: keyboard.broad ? (after ? keyboard.height + width / 2 : -width / 2) - height / 2 : keyboard.aim.y - keyboard.y - height / 2
         rotation: (keyboard.broad ? 90 : 0) + (after ? 180 : 0)

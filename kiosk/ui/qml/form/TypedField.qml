@@ -77,16 +77,42 @@ TextField {
         onActiveChanged: if (active) field.touched = true
     }
 
+    // A number's: keys with digits, before the words.
+    Grid {
+        id: sign
+        readonly property real beside: 16 * Theme.unit
+        anchors.verticalCenter: parent.verticalCenter
+        x: Theme.across((parent.width - width - beside - prompt.contentWidth) / 2, width, parent.width)
+        visible: field.digits && prompt.visible
+        columns: 3
+        spacing: 4 * Theme.unit
+        Repeater {
+            model: 9
+            Rectangle {
+                width: 8 * Theme.unit
+                height: width
+                radius: 2 * Theme.unit
+                color: Theme.sea
+            }
+        }
+    }
     Text {
-        anchors { fill: parent; leftMargin: (field.digits ? 0.6 : 1) * field.leftPadding; rightMargin: anchors.leftMargin }
+        id: prompt
+        readonly property real before: field.digits ? sign.width + sign.beside : 0
+        readonly property real margin: (field.digits ? 0.6 : 1) * field.leftPadding
+        anchors {
+            fill: parent
+            leftMargin: margin + (Theme.mirrored ? 0 : before)
+            rightMargin: margin + (Theme.mirrored ? before : 0)
+        }
         visible: field.length === 0 && field.preeditText === ""
         textFormat: Text.PlainText
         text: field.hint
         horizontalAlignment: field.digits ? Text.AlignHCenter : undefined
-        font.pixelSize: field.digits ? Theme.size(30) : Theme.body
+        font.pixelSize: field.digits ? Theme.size(Theme.upright ? 34 : 32) : Theme.body
         fontSizeMode: Text.HorizontalFit
         minimumPixelSize: Theme.size(24)
-        color: Theme.faintInk
+        color: field.digits ? Theme.ink : Theme.faintInk
         verticalAlignment: Text.AlignVCenter
         Accessible.ignored: true
     }
@@ -94,7 +120,7 @@ TextField {
         radius: Theme.radius
         // Of the colour of the keys on the screen that type into it.
         color: field.activeFocus && !Theme.byKeyboard ? Theme.sand : Theme.white
-        border { color: Theme.sea; width: (field.activeFocus ? 6 : 3) * Theme.unit }
+        border { color: Theme.sea; width: (field.activeFocus ? 6 : field.digits ? 4 : 3) * Theme.unit }
         // Inside of a number, which has buttons beside it.
         FocusRing {
             visible: field.activeFocus && Theme.byKeyboard
