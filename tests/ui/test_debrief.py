@@ -198,4 +198,6 @@ def test_the_first_point_leads_to_two_cards_close_below_it_and_the_helper_says_t
     qtbot.waitUntil(lambda: place(0).x() < place(3).x() < place(1).x() < place(2).x())
     qtbot.waitUntil(lambda: place(0).y() < place(1).y() == place(2).y() < place(3).y())
     assert place(1).y() - place(0).y() < 2 * texts["Point 0."].height()
+    # A click on it in the preview finds the whole point.
+    assert texts["Point 0."].parentItem().property("text") == paragraphs[0]
     assert lies_in(texts["It is no test. You can ask us."], "Bubble")

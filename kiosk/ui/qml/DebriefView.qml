@@ -165,10 +165,12 @@ PageFrame {
         }
         Row {
             id: lead
+            // The whole point, which is found by it in the preview.
+            readonly property string text: card.modelData.text
             visible: card.runsOn
             spacing: 0.3 * view.size
             Repeater {
-                model: card.runsOn ? view.sentences(card.modelData.text) : []
+                model: card.runsOn ? view.sentences(lead.text) : []
                 PlainText {
                     required property string modelData
                     required property int index
