@@ -34,7 +34,7 @@ console-keys = Tab y flechas para moverse, Intro para hacer, Esc para cerrar. Tr
 console-all-well = Todo está bien
 console-rest-well = Ningún otro problema
 console-session-none = No hay nadie
-console-session-paused = En pausa mientras se ve esto
+console-session-paused = En pausa por este panel
 console-session-stays = En pausa también después
 
 ## The first page

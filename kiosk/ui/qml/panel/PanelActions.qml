@@ -89,6 +89,7 @@ PanelSection {
             least: actions.wide ? actions.mainTall : actions.tall
             width: pairs.each
             horizontalPadding: actions.edge
+            rightPadding: actions.edge - (Theme.mirrored ? 0 : 6 * Theme.unit)
             font.pixelSize: actions.lettering
             words: actions.words["console-stay-paused"]
             whenOn: actions.words["console-switch-on"]

@@ -18,7 +18,11 @@ PanelSection {
 
     // What a wide screen has left is shared among the lines.
     readonly property real each: double ? 0 : Math.max(0, Math.min(76 * Theme.unit, (least - Math.max(1.4 * size, crown) - 2 * size) / (lines.length + 0.3)))
-    readonly property real named: Math.min(0.4 * table.column, Math.ceil(Math.max(0, ...lines.map(line => letters.advanceWidth(line.name)))) + 14 * Theme.unit)
+    readonly property real named: Math.min(0.4 * table.column, widest(lines.map(line => line.name), letters.font) + 14 * Theme.unit)
+    // What is measured depends on the font, which is named for that reason alone.
+    function widest(names: var, _font: font): real {
+        return Math.ceil(Math.max(0, ...names.map(name => letters.advanceWidth(name))))
+    }
     FontMetrics {
         id: letters
         font { pixelSize: health.size; bold: true }

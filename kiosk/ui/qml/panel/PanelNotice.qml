@@ -17,8 +17,8 @@ Rectangle {
     // They are written a little smaller if they fit so.
     readonly property real room: width - 2 * inset - 1.4 * size
     readonly property real inset: Math.round(1.1 * Theme.gap)
-    readonly property real whole: widest(bold, health.matters.map(matter => said(matter)))
-    readonly property real both: whole + widest(plain, health.matters.map(matter => matter.remedy))
+    readonly property real whole: widest(bold, health.matters.map(matter => said(matter)), bold.font)
+    readonly property real both: whole + widest(plain, health.matters.map(matter => matter.remedy), plain.font)
     readonly property real fitting: Math.min(1, (room - 1.5 * Theme.gap) / both)
     readonly property bool beside: fitting >= 0.89
     readonly property real written: beside && fitting < 1 ? Math.floor(fitting * size) : size
@@ -27,7 +27,8 @@ Rectangle {
     function said(matter: var): string {
         return `${matter.name}: ${matter.message}`
     }
-    function widest(letters: FontMetrics, texts: var): real {
+    // What is measured depends on the font, which is named for that reason alone.
+    function widest(letters: FontMetrics, texts: var, _font: font): real {
         return Math.ceil(Math.max(0, ...texts.map(text => letters.advanceWidth(text)))) + 2 * Theme.unit
     }
 

@@ -10,32 +10,41 @@ PanelButton {
     // What stands beside the knob: that it is on, and that it is off.
     required property string whenOn
     required property string whenOff
-    readonly property real knob: 40 * Theme.unit
+    readonly property real knob: 34 * Theme.unit
 
+    // As wide in both, so that its words stay where they are.
+    font.bold: false
     choosable: true
     chosen: on
     verticalPadding: 4 * Theme.unit
-    readonly property real between: 0.6 * Theme.gap
+    readonly property real between: 0.45 * Theme.gap
     Accessible.role: Accessible.CheckBox
 
     contentItem: Item {
         id: parts
         readonly property real before: bar.sign > 0 ? bar.sign + 0.6 * bar.font.pixelSize : 0
-        readonly property real behind: bar.between + Math.ceil(state.width) + 0.85 * bar.between + track.width
-        implicitWidth: before + Math.ceil(natural.advanceWidth(bar.words)) + 2 * Theme.unit + behind
+        implicitWidth: before + wide(bar.words, bar.font) + bar.between + track.width
         implicitHeight: Math.max(letters.implicitHeight, track.height)
-        // As wide as in bold, so that its words stay where they are.
+        // What is measured depends on the font, which is named for that reason alone.
+        function wide(text: string, _font: font): real {
+            return Math.ceil(natural.advanceWidth(text)) + 2 * Theme.unit
+        }
         FontMetrics {
             id: natural
-            font { family: bar.font.family; pixelSize: bar.font.pixelSize; bold: true }
+            font: bar.font
         }
+        // Only where its words need no second line for it.
         PlainText {
             id: state
-            x: Theme.across(parts.width - track.width - 0.85 * bar.between - width, width, parts.width)
+            readonly property real spare: parts.width - parts.before - parts.wide(bar.words, bar.font) - bar.between - track.width - width
+            readonly property real after: Math.min(14 * Theme.unit, spare)
+            readonly property real room: visible ? width + after : 0
+            visible: spare >= 4 * Theme.unit
+            x: Theme.across(parts.width - track.width - after - width, width, parts.width)
             y: (parts.height - height) / 2
-            width: Math.ceil(Math.max(natural.advanceWidth(bar.whenOn), natural.advanceWidth(bar.whenOff)))
+            width: Math.ceil(0.92 * Math.max(parts.wide(bar.whenOn, bar.font), parts.wide(bar.whenOff, bar.font)))
             text: bar.on ? bar.whenOn : bar.whenOff
-            font: bar.font
+            font.pixelSize: 0.92 * bar.font.pixelSize
             color: bar.front
             horizontalAlignment: Text.AlignRight
             Accessible.ignored: true
@@ -52,7 +61,7 @@ PanelButton {
             id: letters
             x: Theme.across(parts.before, width, parts.width)
             y: (parts.height - height) / 2
-            width: parts.width - parts.before - parts.behind
+            width: parts.width - parts.before - bar.between - state.room - track.width
             text: bar.words
             font: bar.font
             color: bar.front

@@ -9,7 +9,7 @@ Item {
     required property string title
     required property string value
     required property string line
-    // What matters more than that line, and stands before it or above.
+    // What matters more than that line, and stands in its place; the line is then behind the number.
     property string first: ""
     // How large the number is.
     property real size: Theme.dense * 1.6
@@ -30,31 +30,31 @@ Item {
             wrapMode: Text.Wrap
         }
         PlainText {
+            id: value
             width: parent.width
             text: tile.value
             font { pixelSize: tile.size; bold: true }
             color: Theme.ink
             wrapMode: Text.Wrap
+            // Where both fit in one line, and something matters more below.
+            PlainText {
+                id: behind
+                readonly property real gap: 0.7 * tile.lettering
+                visible: tile.first !== "" && value.implicitWidth + gap + implicitWidth <= tile.width
+                x: Theme.across(value.implicitWidth + gap, width, value.width)
+                y: value.baselineOffset - baselineOffset
+                text: tile.line
+                font.pixelSize: tile.lettering
+                color: Theme.faintInk
+            }
         }
         PlainText {
-            id: before
             visible: text !== ""
             width: parent.width
             text: tile.first
             font.pixelSize: 1.22 * tile.lettering
             color: Theme.ink
             wrapMode: Text.Wrap
-            // Behind it, where both fit in one line.
-            PlainText {
-                id: behind
-                readonly property real gap: 0.7 * tile.lettering
-                visible: tile.first !== "" && before.implicitWidth + gap + implicitWidth <= tile.width
-                x: Theme.across(before.implicitWidth + gap, width, before.width)
-                y: before.baselineOffset - baselineOffset
-                text: tile.line
-                font.pixelSize: tile.lettering
-                color: Theme.faintInk
-            }
         }
         PlainText {
             width: parent.width

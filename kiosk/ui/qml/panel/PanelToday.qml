@@ -30,8 +30,8 @@ Item {
     readonly property real leftOver: room > 0 && Theme.textSize <= 1.15 ? room - (395 + 45 * rows) * Theme.unit : 0
     readonly property real airy: 10 * Theme.unit + Math.max(0, Math.min(16 * Theme.unit, leftOver / (rows + 2)), spread)
     // On an upright one it is shared among all, as long as there is little to tell.
-    readonly property bool calm: !wide && Theme.textSize <= 1.15 && panel.health.well && panel.alarms.length === 0 && panel.records.resumable.length === 0 && !panel.choices.canBeNext && !(panel.choices.onBreak ?? false)
-    readonly property real spread: calm ? Math.floor(Math.max(0, Math.min(24 * Theme.unit, (seen - first.height - (1190 + 60 * rows) * Theme.unit) / (rows + 9)))) : 0
+    readonly property bool calm: !wide && Theme.textSize <= 1.15 && panel.health.matters.length < 3 && panel.alarms.length === 0 && panel.records.resumable.length === 0 && !panel.choices.canBeNext && !(panel.choices.onBreak ?? false)
+    readonly property real spread: calm ? Math.floor(Math.max(0, Math.min(24 * Theme.unit, (seen - first.height - (1190 + 66 * rows) * Theme.unit) / (rows + 9)))) : 0
 
     // On an upright screen all second columns begin in line, and with them the fourth of the grid that both tables share.
     readonly property real gutter: Math.round(40 * Theme.unit)
