@@ -64,10 +64,10 @@ FocusScope {
     // How much of its lower end a long sentence may cover.
     property real lent: 0
     readonly property real spare: Math.floor(height - lent - 20 * Theme.unit - strip - numbers - footer - rows * widest) - 1
-    // On an upright screen, what more there is lies above the words, between them and the tray, and most of it below that.
-    readonly property real loose: upright ? Math.max(0, Math.min(24 * Theme.unit, (spare - apart) / 5)) : 0
+    // On an upright screen, what more there is lies below the tray: words and tray begin where those of the practice do.
+    readonly property real lower: upright ? Math.max(0, Math.min(24 * Theme.unit, (spare - apart) / 5)) : 0
     readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
-        + Math.max(upright && Theme.textSize > 1.15 ? 18 * Theme.unit : 0, Math.min(apart + 5 * loose, spare))
+        + Math.max(upright && Theme.textSize > 1.15 ? 18 * Theme.unit : 0, Math.min(apart + 5 * lower, spare))
     // A pair that was just found has a frame of this thickness; frames of neighbours leave a clear strip between them.
     readonly property real ring: Math.min(12 * Theme.unit, 0.05 * cell)
     readonly property real framed: cell - 14 * Theme.unit
@@ -76,7 +76,7 @@ FocusScope {
     readonly property real cardsEnd: table.x + table.width - margin * cell
     readonly property real wordsSize: upright && Theme.textSize <= 1.15 ? Theme.size(38) : Theme.body
     // Where the words about the game stand: above the tray, or beside it in the same line.
-    readonly property real wordsAt: 12 * Theme.unit + loose
+    readonly property real wordsAt: 12 * Theme.unit
     readonly property real wordsHigh: upright ? wordsLine - 12 * Theme.unit - wordsApart : tray.height
     // The way to the game stands above the cards, with the tray; or below them, where large words leave no room there.
     readonly property real above: practice.width + (broad ? progress.implicitWidth : progress.width) + skip.implicitWidth + (upright ? 0 : 240 * Theme.unit) + 5 * Theme.gap
@@ -223,7 +223,7 @@ FocusScope {
         id: tray
         x: view.broad ? view.width - view.side : view.upright ? view.headLeft
          : view.practises ? progress.x + progress.width + Theme.gap : moves.x + moves.width + Theme.gap
-        y: view.broad ? table.y : view.upright ? view.wordsAt + view.wordsLine + view.loose : 12 * Theme.unit
+        y: view.broad ? table.y : view.upright ? view.wordsAt + view.wordsLine : 12 * Theme.unit
         width: view.broad ? view.side - Theme.gap : view.upright ? view.headRight - view.headLeft : Math.max(0, end - x)
         // It ends a little before the cards, clear of what shows how far the visit is; or as far from the way to the
         // game as it begins from the words.
