@@ -190,6 +190,8 @@ PageFrame {
 
     // Or over other questions.
     readonly property bool keysOver: keyboard.visible && keyboard.numbers && upright && !alone
+    // Pale letters would not have the contrast that was asked for.
+    readonly property real setBack: keysOver && !Theme.highContrast ? 0.3 : 1
 
     wider: !alone && rates()
     title: form.title
@@ -199,7 +201,7 @@ PageFrame {
     quiet: form.skips || !form.complete
     way.waits: !form.skips && !form.complete
     way.reason: form.waiting
-    way.opacity: keysOver ? 0.3 : 1
+    way.opacity: setBack
     label: words[form.skips ? "form-skip" : "form-next"]
     beside: progress
     besides: form.progress !== ""
@@ -440,7 +442,7 @@ PageFrame {
                     questionHeight: view.questionHeight
                     headed: !view.repeats(index)
                     // Over an upright page the keys cover other questions: these step back until they can be seen again.
-                    opacity: view.keysOver && keyboard.card !== asked ? 0.3 : 1
+                    opacity: keyboard.card === asked ? 1 : view.setBack
                     inline: view.inline(modelData)
                     onEntered: field => {
                         keyboard.card = asked
