@@ -50,13 +50,23 @@ FocusScope {
     // Where the cards leave room for it, the tray has two rows of larger places.
     readonly property bool tall: height - (182 + 70) * Math.max(1, Theme.textSize) * Theme.unit - rows * widest > 70 * Theme.unit
     readonly property int shelfLines: pairs > 12 ? 2 : 1
-    readonly property int lines: upright ? shelfLines : tall ? 2 : 1
+    // On an upright screen, two rows leave room for the two cards of a pair beside each other, as one row does in the
+    // practice. No card gets smaller by them.
+    readonly property bool doubles: upright && pairs > 7 && shelfLines === 1 && remains + lowered > doubled + 1.5 * apart
+    readonly property real doubled: 2 * doubleSlot - shelfSlot
+    readonly property real doubleSlot: Math.floor(Math.min(82 * Theme.unit, 0.475 * wide / Math.max(1, Math.ceil(pairs / 2))))
+    // What an upright screen has left with the fewest rows, below an announcement of one line.
+    readonly property real remains: height - lent - 20 * Theme.unit - shelf - numbers - 90 * Math.max(1, Theme.textSize) * Theme.unit - rows * widest
+    // Below two rows the cards stand lower, so that they are as far from the tray as from a short sentence. A long one
+    // covers no card.
+    readonly property real lowered: Math.min(24 * Theme.unit, 0.45 * lent)
+    readonly property int lines: upright ? (doubles ? 2 : shelfLines) : tall ? 2 : 1
     // On an upright screen: the line of words above the tray, and a place of the tray. They depend on no height.
     readonly property real wordsLine: (78 * Math.max(1, Theme.textSize) + 20) * Theme.unit + wordsApart
     readonly property real wordsApart: 20 * Theme.unit
     readonly property real shelfSlot: Math.floor(Math.min((pairs > 6 ? 80 : 74) * Theme.unit, wide / Math.max(1, Math.ceil(pairs / shelfLines))))
     readonly property real shelf: wordsLine + shelfLines * shelfSlot + 8 * Theme.unit
-    readonly property real usualStrip: upright ? shelf : (tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
+    readonly property real usualStrip: upright ? shelf + (doubles ? doubled : 0) : (tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
     readonly property real strip: broad ? 0 : usualStrip
     // The shelf stands further from the columns' numbers than the cards do, as they name the cards; but no card gets
     // smaller by it.
@@ -68,6 +78,7 @@ FocusScope {
     readonly property real lower: upright ? Math.max(0, Math.min(24 * Theme.unit, (spare - apart) / 5)) : 0
     readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
         + Math.max(upright && Theme.textSize > 1.15 ? 18 * Theme.unit : 0, Math.min(apart + 5 * lower, spare))
+        + (doubles ? lowered : 0)
     // A pair that was just found has a frame of this thickness; frames of neighbours leave a clear strip between them.
     readonly property real ring: Math.min(12 * Theme.unit, 0.05 * cell)
     readonly property real framed: cell - 14 * Theme.unit
@@ -228,7 +239,7 @@ FocusScope {
         // It ends a little before the cards, clear of what shows how far the visit is; or as far from the way to the
         // game as it begins from the words.
         readonly property real end: !view.practises ? view.cardsEnd - 2 * Theme.gap : (view.skipsBelow ? view.width : skip.x) - Theme.gap
-        height: view.broad ? table.height : view.upright ? view.lines * view.shelfSlot : view.strip - 8 * Theme.unit
+        height: view.broad ? table.height : view.upright ? view.lines * (view.doubles ? view.doubleSlot : view.shelfSlot) : view.strip - 8 * Theme.unit
         places: view.pairs
         spreads: view.upright
         lines: view.broad ? Math.ceil(places / 2) : view.lines
