@@ -505,6 +505,16 @@ def test_on_an_upright_screen_the_tray_is_as_wide_as_the_cards_with_their_rows_n
 
 
 @STILL
+def test_on_an_upright_screen_two_rows_of_pairs_side_by_side_make_no_card_smaller(app: App) -> None:
+    resize(app.window, "upright")
+    lay_out(app.window)
+    tray = next(item for item in items(app.window.contentItem()) if lies_in(item, "Tray"))
+    board = next(item for item in items(app.window.contentItem()) if lies_in(item, "BoardView"))
+    assert (tray.property("lines"), tray.property("paired")) == (2, True)
+    assert board.property("cell") == int(board.property("widest"))
+
+
+@STILL
 @pytest.mark.parametrize("layout", ["wide", "upright"])
 def test_no_control_moves_when_a_sentence_can_be_heard_again(app: App, layout: str) -> None:
     app.screens.kiosk.begin(["en"], "en", QUIET[False].consent)
