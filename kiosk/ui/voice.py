@@ -79,7 +79,7 @@ class Voice(QObject):
     @property
     def health(self) -> Health:
         """Whether sentences are heard, in words for the experimenter."""
-        return Health(is_ok=True, message="silent on purpose", is_used=False)
+        return Health(is_ok=True, message="off in this study", is_used=False)
 
     def close(self) -> None:
         """Be silent for good."""
@@ -107,6 +107,11 @@ class SilentVoice(Voice):
         super().__init__(parent)
         self._clock = clock
         self._wait: TimerWait | None = None
+
+    @property
+    def health(self) -> Health:
+        """Say that it is simulated: the study may have its voice on."""
+        return Health(is_ok=True, message="simulated", is_used=False)
 
     def say(self, number: int, sentence: str) -> None:
         """Begin to be silent about a sentence."""

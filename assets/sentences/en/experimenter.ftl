@@ -33,6 +33,16 @@ console-close = Close
 console-keys = Tab and arrows go around, Enter does it, Esc closes. Left alone for a minute, it closes by itself.
 console-all-well = All is well
 console-rest-well = No other problems
+console-to-do =
+    { $number ->
+        [one] 1 thing to do
+       *[other] { $number } things to do
+    }
+console-more-to-do =
+    { $number ->
+        [one] 1 more thing to do
+       *[other] { $number } more things to do
+    }
 console-session-none = No visitor is there
 console-session-paused = Paused while this is open
 console-session-stays = Stays paused after closing

@@ -33,6 +33,16 @@ console-close = Cerrar
 console-keys = Tab y flechas para moverse, Intro para hacer, Esc para cerrar. Tras un minuto sin nadie se cierra solo.
 console-all-well = Todo está bien
 console-rest-well = Ningún otro problema
+console-to-do =
+    { $number ->
+        [one] 1 cosa por hacer
+       *[other] { $number } cosas por hacer
+    }
+console-more-to-do =
+    { $number ->
+        [one] 1 cosa más por hacer
+       *[other] { $number } cosas más por hacer
+    }
 console-session-none = No hay nadie
 console-session-paused = En pausa por este panel
 console-session-stays = En pausa también después

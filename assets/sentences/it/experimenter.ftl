@@ -33,6 +33,16 @@ console-close = Chiudi
 console-keys = Tab e frecce per spostarsi, Invio per eseguire, Esc per chiudere. Dopo un minuto senza nessuno si chiude da sé.
 console-all-well = Tutto bene
 console-rest-well = Nessun altro problema
+console-to-do =
+    { $number ->
+        [one] 1 cosa da fare
+       *[other] { $number } cose da fare
+    }
+console-more-to-do =
+    { $number ->
+        [one] Ancora 1 cosa da fare
+       *[other] Ancora { $number } cose da fare
+    }
 console-session-none = Non c’è nessuno
 console-session-paused = In pausa finché è aperto
 console-session-stays = In pausa anche dopo

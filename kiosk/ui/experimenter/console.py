@@ -48,6 +48,7 @@ from kiosk.ui.experimenter.status import (
     health_lines,
     health_parts,
     health_summary,
+    health_title,
     is_pack_changed,
     neutral_names,
     session_rows,
@@ -279,8 +280,10 @@ class Panel:
             {
                 "well": whole.is_ok,
                 "summary": whole.message,
+                "title": health_title((*found, *more), self._catalogue),
                 "matters": [asdict(line) for line in (*found, *more) if not line.is_ok],
-                "lines": [asdict(line) for line in found if line.is_ok],
+                # What the experimenter has to do stands first.
+                "lines": [asdict(line) for line in sorted(found, key=lambda line: not line.is_due) if line.is_ok],
                 "more": [asdict(line) for line in more],
             }
         )
@@ -371,12 +374,15 @@ class Panel:
             ],
             "break": str(actions.break_minutes) if booth.screens.kiosk.back_at else "",
             "onBreak": booth.runner.is_on_break,
-            "backup": told("console-backup-busy")
-            if self._upkeep.busy
-            else told("console-backup-waits")
-            if self._upkeep.waits
-            else "",
+            "backup": copy_words(self._upkeep, self._catalogue),
         }
+
+
+def copy_words(upkeep: MaintenanceScheduler, catalogue: Catalogue) -> str:
+    """Return what becomes of a copy that was asked for; an empty text if none was."""
+    if upkeep.busy:
+        return catalogue.text("console-backup-busy")
+    return catalogue.text("console-backup-waits") if upkeep.waits else ""
 
 
 WORDS = (
@@ -394,8 +400,6 @@ WORDS = (
     "console-alarms",
     "console-alarms-none",
     "console-shortcuts",
-    "console-health",
-    "console-rest-well",
     "console-mark-well",
     "console-mark-idle",
     "console-mark-due",
@@ -646,6 +650,7 @@ class ExperimenterConsole:
             muted=booth.embodiments.is_muted,
             free_space=self.upkeep.free_space,
             last_backup=self.upkeep.last_backup,
+            copy=copy_words(self.upkeep, self._catalogue),
             audit_error=self._write.error,
             clocks=Clocks(self._now_ms(), self._began_ms, booth.clock.now_ms() - self._run_from_ms, self._written_ms),
             has_pin=self._lock.has_pin,

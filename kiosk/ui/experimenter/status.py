@@ -103,6 +103,8 @@ class HealthInputs:
     supervised: bool = False
     remote: str | None = None
     """Why the status is not published; empty if it is, None if that is switched off."""
+    copy: str = ""
+    """What becomes of a copy that was asked for; empty if none was."""
     pack_changed: bool = False
     """Whether the pack of clips is not the one of earlier sessions."""
 
@@ -177,6 +179,14 @@ def health_summary(found: tuple[HealthLine, ...], catalogue: Catalogue) -> Healt
     return HealthLine("", "\n".join(f"{line.name}: {line.message}" for line in ill), is_ok=False)
 
 
+def health_title(found: tuple[HealthLine, ...], catalogue: Catalogue) -> str:
+    """Return the heading of the lines that are well: how many things are to be done, if any are."""
+    is_well, due = all(line.is_ok for line in found), sum(line.is_due for line in found)
+    if due:
+        return catalogue.text("console-to-do" if is_well else "console-more-to-do", number=due)
+    return catalogue.text("console-health" if is_well else "console-rest-well")
+
+
 def _robot(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
     name = catalogue.text("console-robot")
     if state.robot is None:
@@ -220,6 +230,8 @@ def _database(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
     if state.audit_error:
         return HealthLine(name, state.audit_error, is_ok=False)
     if state.last_backup is None:
+        if state.copy:
+            return HealthLine(name, state.copy, is_used=False)
         return HealthLine(name, translate("console-backup-none"), is_due=True)
     if state.last_backup.file is None:
         return HealthLine(name, translate("console-backup-failed", why=state.last_backup.why), is_ok=False)

@@ -320,7 +320,7 @@ def test_one_line_tells_that_all_is_well_or_what_is_not(assigner: Desk, monkeypa
     # It is said once: in the notice, and not in the list of what is well.
     assert shows(assigner.app.window.contentItem(), "Disk: only 100 MiB free: make room this evening")
     assert not shows(assigner.app.window.contentItem(), "Disk")
-    assert shows(assigner.app.window.contentItem(), "No other problems")
+    assert shows(assigner.app.window.contentItem(), "1 more thing to do")
 
 
 def test_the_shortcuts_are_one_press_away_and_the_keyboard_is_on_their_page_then(assigner: Desk) -> None:

@@ -26,6 +26,7 @@ from kiosk.ui.experimenter.status import (
     booth_lines,
     health_lines,
     health_summary,
+    health_title,
     is_pack_changed,
     neutral_names,
     shortcut_rows,
@@ -173,6 +174,20 @@ def test_a_copy_that_was_never_made_is_no_fault_but_is_to_be_made() -> None:
     database = told(replace(WELL, last_backup=None))["Database"]
     assert (database.is_ok, database.is_due, database.message) == (True, True, "no copy: make one")
     assert not told(WELL)["Database"].is_due
+
+
+@pytest.mark.parametrize(
+    ("state", "title"),
+    [
+        (WELL, "How everything is"),
+        (replace(WELL, has_pin=False), "No other problems"),
+        (replace(WELL, last_backup=None), "1 thing to do"),
+        (replace(WELL, last_backup=None, copy="after this session"), "How everything is"),
+        (replace(WELL, last_backup=None, has_pin=False), "1 more thing to do"),
+    ],
+)
+def test_the_heading_of_what_is_well_counts_what_is_to_be_done(state: HealthInputs, title: str) -> None:
+    assert health_title(every_line(state, CATALOGUES["en"]), CATALOGUES["en"]) == title
 
 
 BEGAN = datetime(2027, 3, 1, 9, tzinfo=UTC)
