@@ -12,7 +12,8 @@ Shape {
         // What moves it; the place alone would not be looked up again.
         if (pane === null || pane.contentY + pane.contentHeight < 0)
             return true
-        const place = mapToItem(pane, Qt.rect(0, 0, width, height))
+        // The lines alone: the square they are drawn on reaches further.
+        const place = mapToItem(pane, boundingRect)
         return place.y + place.height > 1 && place.y < pane.height - 1
     }
 

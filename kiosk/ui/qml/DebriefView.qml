@@ -11,7 +11,7 @@ PageFrame {
     required property string labName
 
     // As much of the height as the text leaves, so that a page that fits does not scroll.
-    readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min((signed && width < height ? most : paired ? 326 : 350) * Theme.unit, room - texts.height - keepsake.crown - keepsake.under - 2 * pad - 2 * rim - (paired ? 1.5 : width < height ? 1.1 : 1) * Theme.gap))
+    readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min((signed && width < height ? most : paired ? 326 : 350) * Theme.unit, room - texts.height - keepsake.crown - keepsake.under - 2 * pad - 2 * rim - (width < height ? 1.1 : 1) * Theme.gap))
     // How large the code may be on an upright page, where the words beside it have to find room.
     readonly property real most: width < height && fits(Theme.size(34), noted, apart, 400) ? 400 : 340
     // How far the white around the code reaches beyond its own frame, for round corners.
@@ -23,7 +23,7 @@ PageFrame {
     // little for that, without the drawings.
     readonly property bool signed: debrief.lines.length > 0 && debrief.lines[0].sign !== "" && fits(Theme.small, Theme.small, 0.5)
     // Beside the helper, the first line leads to those after it, which stand two by two close below it, in the order in which
-    // they are read. A last one has all of the width: as large as there is room for that, and for a code that is easy to scan.
+    // they are read. A last one has all of the width, in a card too: as large as there is room for that, and for a code that is easy to scan.
     readonly property var rows: inRows(read)
     readonly property var measuredRows: inRows(measures)
     function inRows(all: var): var {
@@ -36,15 +36,15 @@ PageFrame {
     }
     readonly property real pairedSize: !accompanied || width <= height || read.length < 3 || read[0].sign === "" ? 0
         // With less room than for a large code there is still a smaller one.
-        : [36, 35, 34].map(Theme.size).find(size => brief(size) && 1.02 * stacked(size) + between + (1.5 * Theme.gap + 342 * Theme.unit) <= room)
-            ?? [36, 35, 34, 33, 32].map(Theme.size).find(size => brief(size) && stacked(size) + between + 345 * Theme.unit <= room) ?? 0
+        : [36, 35, 34].map(Theme.size).find(size => brief(size) && 1.02 * stacked(size) + between + (Theme.gap + 342 * Theme.unit) <= room)
+            ?? [36, 35, 34, 33, 32].map(Theme.size).find(size => brief(size) && stacked(size) + between + 333 * Theme.unit <= room) ?? 0
     readonly property bool pairable: pairedSize > 0
-    // Two beside each other are cards, with this much around what they say.
+    // All but the one that leads are cards, with this much around what they say.
     readonly property real inset: 0.75 * Theme.gap
     readonly property real insetAcross: Theme.gap
     // How far a row is below the one before it: cards are close to the line that leads to them.
     function step(index: int): real {
-        return index === 0 ? 0 : (index === 1 ? 0.75 : rows[index]?.length > 1 ? 1 : 1.5) * Theme.gap
+        return index === 0 ? 0 : (index === 1 ? 0.75 : 1) * Theme.gap
     }
     // Heading and text of the line that leads are one line, where that has room.
     function runsOn(size: real): bool {
@@ -53,14 +53,14 @@ PageFrame {
     readonly property real between: rows.reduce((sum, row, index) => sum + step(index), 0)
     // How many lines has the one of this row that has most of them, and how high all rows are.
     function tallest(row: var, size: real, leads = false): int {
-        const width = row.length > 1 ? (column - Theme.gap) / 2 - 2 * insetAcross : column
+        const width = leads ? column : (row.length > 1 ? (column - Theme.gap) / 2 : column) - 2 * insetAcross
         return leads && runsOn(size) ? 1 : Math.max(...row.map(widths => broken(widths, size, leads ? width : width - 2.5 * size - Theme.gap)))
     }
     function brief(size: real): bool {
         return measuredRows.every((row, index) => tallest(row, size, index === 0) <= 3)
     }
     function stacked(size: real): real {
-        return measuredRows.reduce((sum, row, index) => sum + (row.length > 1 ? 2 * inset : 0)
+        return measuredRows.reduce((sum, row, index) => sum + (index > 0 ? 2 * inset : 0)
             + Math.max(index > 0 ? 2.5 * size : 0, tallest(row, size, index === 0) * (leading + 0.06) * Math.ceil(1.37 * size)), 0)
     }
     readonly property bool paired: signed && pairable
@@ -140,7 +140,7 @@ PageFrame {
         // Among lines with headings, one without is a heading itself.
         strong: lead === "" && view.read.some(line => line.text.includes("\n"))
     }
-    // Where one stands beside another, it has a frame.
+    // All but the one that leads have a frame.
     component Card: Rectangle {
         id: card
         required property var modelData
@@ -195,7 +195,7 @@ PageFrame {
             width: pane.width
             height: texts.height + keepsake.height + (keepsake.there ? apart : 0)
             // Lines and card stand further apart than the lines, by half of what is free; below cards, as far as their rows.
-            readonly property real apart: view.paired ? 1.5 * Theme.gap : Theme.gap + (view.signed ? Math.max(0, Math.min(1.5 * Theme.gap, (view.room - texts.height - keepsake.height - 1.34 * Theme.gap) / 2)) : 0)
+            readonly property real apart: view.paired ? Theme.gap : Theme.gap + (view.signed ? Math.max(0, Math.min(1.5 * Theme.gap, (view.room - texts.height - keepsake.height - 1.34 * Theme.gap) / 2)) : 0)
             Item {
                 id: texts
                 y: parts.cardFirst ? keepsake.height + parts.apart : 0
@@ -221,7 +221,7 @@ PageFrame {
                                 model: row.modelData
                                 Card {
                                     width: (texts.width - (row.modelData.length - 1) * row.spacing) / row.modelData.length
-                                    bare: row.modelData.length === 1
+                                    bare: row.index === 0
                                     leads: row.index === 0
                                     tall: row.tall
                                 }
