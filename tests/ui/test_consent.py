@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from PySide6.QtCore import QRectF, Qt
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QAccessible, QAccessibleInterface
 from PySide6.QtQuick import QQuickItem
 
 from kiosk.experiment.information import ConsentPage, Purpose
@@ -20,6 +21,9 @@ PAGE = ConsentPage(
     ),
 )
 REQUIRED = frozenset({"take_part", "store"})
+SHORT = PAGE.model_copy(update={"points": ("No name.",), "signs": ("no_name",)})
+MIXED = SHORT.model_copy(update={"purposes": PAGE.purposes[::-1]})
+"""A page on which no heading can stand over all that are needed."""
 
 Done = list[object]
 
@@ -44,11 +48,30 @@ def says(item: QQuickItem, text: str) -> bool:
 
 
 @pytest.mark.usefixtures("done")
-def test_nothing_is_ticked_beforehand_and_the_required_boxes_say_so(booth: Booth) -> None:
-    for purpose in PAGE.purposes:
-        box = booth.item(f"purpose-{purpose.id}")
+@pytest.mark.parametrize("page", [SHORT, MIXED, PAGE], ids=["grouped", "mixed", "long"])
+def test_nothing_is_ticked_beforehand_and_the_required_boxes_say_so(booth: Booth, page: ConsentPage) -> None:
+    booth.app.screens.consent.show(page)
+    booth.settle()
+    assert booth.sees("consent-optional") == (page is SHORT)
+    for purpose in page.purposes:
+        box, note = booth.item(f"purpose-{purpose.id}"), "needed" if purpose.required else "up to you"
         assert not box.property("on")
-        assert says(box, "needed" if purpose.required else "up to you")
+        assert says(box, note) == (page is not SHORT)
+        told = QAccessible.queryAccessibleInterface(box)
+        assert isinstance(told, QAccessibleInterface)
+        assert told.text(QAccessible.Text.Description) == note
+
+
+@pytest.mark.usefixtures("done")
+def test_a_heading_stands_over_the_boxes_that_are_up_to_the_visitor(booth: Booth) -> None:
+    booth.app.screens.consent.show(SHORT)
+    booth.settle()
+    heading = booth.item("consent-optional")
+    assert heading.property("text") == "Up to you"
+    tops = [
+        booth.item(name).mapToScene(QPointF()).y() for name in ("purpose-store", "consent-optional", "purpose-share")
+    ]
+    assert tops == sorted(tops)
 
 
 @pytest.mark.usefixtures("done")
@@ -142,8 +165,7 @@ def test_a_keyboard_alone_decides(booth: Booth, done: Done) -> None:
 
 def test_in_short_the_page_says_its_points_and_all_of_it_on_request(booth: Booth, done: Done) -> None:
     window = booth.app.window
-    short = PAGE.model_copy(update={"points": ("No name.",), "signs": ("no_name",)})
-    booth.app.screens.consent.show(short)
+    booth.app.screens.consent.show(SHORT)
     booth.settle()
     assert says(window.contentItem(), "No name.")
     assert not says(window.contentItem(), "We record your moves.")

@@ -1,6 +1,7 @@
 // A button that is hard to miss: large, and the same by mouse, touch and keyboard.
 import QtQuick
 import QtQuick.Controls.Basic
+import QtQuick.Shapes
 import "."
 
 Button {
@@ -11,7 +12,7 @@ Button {
     // How wide it may be at most; its words then take more lines.
     property real most: Infinity
     property bool quiet: false
-    // A quiet one that is the way on, once what the page asks for is done: paler than the others.
+    // A quiet one that is the way on, once what the page asks for is done: a dashed edge, for it is to be filled.
     property bool waits: false
     // A line below the words, such as why it waits; it makes the button no higher.
     property string note: ""
@@ -39,11 +40,11 @@ Button {
     Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
 
     contentItem: Text {
-        transform: Translate { y: -below.height / 2 }
+        transform: Translate { y: -below.height / 2 - (button.note === "" ? 0 : 4 * Theme.unit) }
         textFormat: Text.PlainText
         text: button.words
         font: button.font
-        color: !button.quiet ? Theme.white : button.waits ? Theme.faintInk : Theme.sea
+        color: !button.quiet ? Theme.white : button.waits ? Theme.ink : Theme.sea
         horizontalAlignment: Text.AlignHCenter
         verticalAlignment: Text.AlignVCenter
         // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
@@ -54,23 +55,40 @@ Button {
         objectName: "note"
         x: (parent.width - width) / 2
         width: parent.width - 2 * Theme.gap
-        y: (parent.height + Math.ceil(1.4 * button.letters) + 2 * Theme.unit - height) / 2
-        height: button.note === "" ? 0 : Math.ceil(1.37 * Theme.small)
+        // Both are a little higher than the middle: letters below the line do not reach the edge.
+        y: (parent.height + Math.ceil(1.4 * button.letters) + 2 * Theme.unit - height) / 2 - 4 * Theme.unit
+        // As large as the words leave it height for, up to nine tenths of theirs.
+        readonly property real letters: Math.max(24 * Theme.unit, Math.min(0.9 * button.letters, (button.height - 1.4 * button.letters) / 1.4))
+        height: button.note === "" ? 0 : Math.ceil(1.37 * letters)
         textFormat: Text.PlainText
         text: button.note
-        font.pixelSize: Theme.small
+        font.pixelSize: letters
         fontSizeMode: Text.HorizontalFit
-        minimumPixelSize: Theme.size(24)
+        minimumPixelSize: 24 * Theme.unit
         horizontalAlignment: Text.AlignHCenter
-        color: button.waits ? Theme.faintInk : button.quiet ? Theme.sea : Theme.white
+        color: button.waits ? Theme.ink : button.quiet ? Theme.sea : Theme.white
         Accessible.ignored: true
     }
     background: Rectangle {
         id: ground
         radius: Math.min(height / 2, button.topPadding + button.font.pixelSize, button.corner)
-        color: button.waits ? Theme.shelf : button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
-        border.color: button.waits ? Theme.slot : Theme.sea
-        border.width: button.quiet ? 3 * Theme.unit : 0
+        color: button.waits ? Theme.white : button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
+        border.color: Theme.sea
+        border.width: button.quiet && !button.waits ? 3 * Theme.unit : 0
+
+        Shape {
+            visible: button.waits
+            anchors { fill: parent; margins: 1.5 * Theme.unit }
+            ShapePath {
+                strokeColor: Theme.sea
+                strokeWidth: 3 * Theme.unit
+                strokeStyle: ShapePath.DashLine
+                dashPattern: [4, 3]
+                capStyle: ShapePath.FlatCap
+                fillColor: "transparent"
+                PathRectangle { width: ground.width - 3 * Theme.unit; height: ground.height - 3 * Theme.unit; radius: ground.radius - 1.5 * Theme.unit }
+            }
+        }
 
         FocusRing {
             around: button

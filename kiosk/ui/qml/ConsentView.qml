@@ -143,14 +143,21 @@ PageFrame {
                 id: boxes
                 width: pane.width
                 readonly property bool needs: view.consent.purposes.some(purpose => purpose.required)
+                // Whether a heading stands over each group, and not a word at each box: if all that are needed come first, and
+                // where the page has room.
+                readonly property bool grouped: needs && view.short && points.airy && view.consent.purposes.every((purpose, index, all) => purpose.required || !all.slice(index).some(other => other.required))
+                // With a capital letter, as a heading.
+                readonly property string optional: view.words["consent-optional"].charAt(0).toUpperCase() + view.words["consent-optional"].slice(1)
                 // How much further apart stands what is not needed, as far as the page has room.
                 readonly property real further: {
                     if (!view.short || !points.airy)
                         return 0
                     let free = pane.room - points.height - 1.6 * Theme.gap - waits.height
+                    if (grouped && view.consent.purposes.some(purpose => !purpose.required))
+                        free -= waits.height + spacing
                     for (let i = 0; i < purposes.count; i++)
                         free -= ((purposes.itemAt(i) as Purpose)?.bare ?? 0) + spacing
-                    return Math.max(0, Math.min((points.columns > 1 || view.width < view.height ? 0.8 : 0.5) * Theme.gap, free))
+                    return Math.max(0, Math.min((points.columns > 1 || view.width < view.height ? 1 : 0.5) * Theme.gap, free))
                 }
                 spacing: (points.airy && view.short ? (view.width < view.height ? 1 : points.columns > 1 ? 0.9 : 0.67) : 0.5) * Theme.gap
                 // What is still to be ticked, or that nothing is.
@@ -184,16 +191,30 @@ PageFrame {
                             && view.consent.purposes.slice(index).every(other => !other.required)
                         width: boxes.width
                         height: tick.y + tick.height
+                        PlainText {
+                            id: group
+                            objectName: "consent-optional"
+                            visible: purpose.apart && boxes.grouped
+                            y: boxes.further
+                            width: parent.width
+                            height: visible ? waits.height : 0
+                            text: boxes.optional
+                            font: waits.font
+                            fontSizeMode: Text.HorizontalFit
+                            minimumPixelSize: Theme.size(24)
+                            verticalAlignment: Text.AlignVCenter
+                        }
                         TickBox {
                             id: tick
                             objectName: "purpose-" + purpose.modelData.id
-                            y: purpose.apart ? boxes.further : 0
+                            y: group.visible ? group.y + group.height + boxes.spacing : purpose.apart ? boxes.further : 0
                             width: parent.width
                             large: points.airy && view.short
                             broad: large && view.width < view.height
                             roomy: view.short && Theme.textSize <= 1.15
                             words: purpose.modelData.text
                             needed: purpose.modelData.required
+                            headed: boxes.grouped
                             lighter: !purpose.modelData.required && boxes.needs
                             on: view.consent.ticks.includes(purpose.modelData.id)
                             note: view.words[purpose.modelData.required ? "consent-required" : "consent-optional"]

@@ -9,6 +9,8 @@ Choosable {
     // What it is, in a word or two, and whether that is to be seen at once.
     property string note: ""
     property bool needed: false
+    // Whether a heading above it says so instead; the box still tells it to those who cannot see it.
+    property bool headed: false
     // Whether it may be left out, beside others that are needed.
     property bool lighter: false
     // What stands there instead, once it is ticked.
@@ -57,7 +59,7 @@ Choosable {
             font { family: tag.font.family; pixelSize: tag.font.pixelSize; bold: true }
             text: box.agreed
         }
-        readonly property bool noted: box.note !== "" && box.warning === ""
+        readonly property bool noted: box.note !== "" && box.warning === "" && !box.headed
         // How far the words keep from it.
         readonly property real clear: (box.large ? 2.5 : 1) * Theme.gap
         readonly property bool beside: noted && !box.broad && noteWidth + clear < 0.4 * room
@@ -104,7 +106,7 @@ Choosable {
                 textFormat: Text.PlainText
                 width: parent.width
                 visible: text !== ""
-                text: box.warning || (parts.beside || parts.below ? "" : parts.note)
+                text: box.warning || (box.headed || parts.beside || parts.below ? "" : parts.note)
                 horizontalAlignment: LayoutMirroring.enabled ? Text.AlignLeft : undefined
                 font { pixelSize: Theme.small; bold: box.warning !== "" || box.needed }
                 wrapMode: Text.Wrap
