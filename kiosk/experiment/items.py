@@ -391,13 +391,13 @@ class Integer(Question):
         return {"minus": self.input.has_minus, "widest": self.input.longest, "pattern": self.input.pattern}
 
     def simulate(self, chance: Random, *, last: bool) -> Iterator[Act]:  # noqa: ARG002 - "Done" is always tapped
-        """Type it with the keys on the screen, or step up and down."""
-        if chance.random() < 1 / 3:
-            yield from (Tap(f"more-{self.id}"), Tap(f"more-{self.id}"), Tap(f"less-{self.id}"))
-            return
+        """Type it with the keys on the screen; one in three then steps up and down."""
+        steps = chance.random() < 1 / 3
         yield Tap(f"number-{self.id}")
-        yield from _keys(str(chance.randint(self.lowest, self.highest)))
+        yield from _keys(str(self.lowest if steps else chance.randint(self.lowest, self.highest)))
         yield Tap("key-done")
+        if steps:
+            yield from (Tap(f"more-{self.id}"), Tap(f"less-{self.id}"))
 
     def accepts(self, answer: Answer) -> bool:
         """Whether it is a number between lowest and highest."""
@@ -525,7 +525,7 @@ class TextPage(BaseItem):
         return False
 
 
-WORDS = ("perché no", "qué bien", "Ça va", "it was fun", "23 pairs, or so", "mañana")
+WORDS = ("perché no", "qué curioso", "Ça va", "it was fun", "23 pairs, or so", "mañana")
 """What simulated visitors type."""
 
 

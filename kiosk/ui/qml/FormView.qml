@@ -127,7 +127,7 @@ PageFrame {
         if (!calm || upright || alone || mirrored)
             return null
         for (const size of [34, 33, 32, 31, 30, 29].map(Theme.size))
-            for (const height of [88, 84, 80, 79, 78, 76, 72, 68])
+            for (const height of [88, 84, 80, 79, 78, 77, 76, 72, 68])
                 if (form.items.every(item => tiled(item, size)) && tiledHeight(height) - 16 * Theme.unit <= room)
                     return {size, height: height * Theme.unit}
         return null
@@ -143,9 +143,14 @@ PageFrame {
             return true
         if (item.kind !== "single")
             return false
-        const half = (inner - 12 * Theme.unit) / 2 - 79 * Theme.unit
+        const half = (inner - 18 * Theme.unit) / 2 - 79 * Theme.unit
         // Small letters are set on whole pixels, and take a little more.
         return item.options.every(option => 1.01 * thin.advanceWidth(option.text) * size / 100 <= half)
+    }
+    // Whether what a number may be has room in its question's line.
+    function ranged(item: var): bool {
+        return item.kind === "integer" && letters.advanceWidth(item.text) * asking / 100
+            + 1.01 * thin.advanceWidth(item.range) * Theme.size(32) / 100 + 1.5 * Theme.gap <= inner - 470 * Theme.unit
     }
     // Whether they have an upright one, whose height is for large options.
     readonly property bool easy: few && upright && !alone
@@ -169,8 +174,8 @@ PageFrame {
         for (const item of form.items) {
             const lines = Math.ceil(letters.advanceWidth(item.text) * asking / 100 / inner)
             const rows = Math.ceil((item.options?.length ?? 0) / 2)
-            tall += form.hidden.includes(item.id) ? 0 : item.kind === "integer" ? 130 * Theme.unit
-                : lines * 1.37 * asking + (48 + (height + 12) * rows) * Theme.unit
+            tall += form.hidden.includes(item.id) ? 0 : item.kind === "integer" ? (ranged(item) ? 120 : 130) * Theme.unit
+                : lines * 1.37 * asking + (42 + (height + 18) * rows) * Theme.unit
         }
         return tall
     }
@@ -426,6 +431,7 @@ PageFrame {
                     paired: view.tiles?.size ?? 0
                     pairHeight: view.tiles?.height ?? 0
                     asking: view.asking
+                    ranged: view.tiles !== null && view.ranged(modelData)
                     loosened: pane.loosened
                     grown: pane.grown
                     optionSize: view.optionSize
@@ -461,8 +467,10 @@ PageFrame {
         spare: view.upright ? view.column
              : view.accompanied ? Window.width - view.before - view.width - Theme.gap : 0
         away: view.upright ? Math.min(36 * Theme.unit, pane.spacing) : x < 0 ? (view.width - view.column) / 2 - x - width : x - (view.width + view.column) / 2
+        near: (card as FormItem)?.inline ?? false
+        // The end of an empty field, where it is once something is typed. Its place in its row is named: it changes then.
         aim: {
-            const middle = field?.mapToItem(home, field.width / 2, field.height / 2) ?? Qt.point(0, 0)
+            const middle = field?.parent.mapToItem(home, field.x + Theme.across(field.width - field.settled, field.settled, field.width) + field.settled / 2, field.y + field.height / 2) ?? Qt.point(0, 0)
             return Qt.point(home.mapToItem(view, middle.x, 0).x, view.begin + home.y + middle.y)
         }
         words: view.words

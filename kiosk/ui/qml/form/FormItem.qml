@@ -47,6 +47,8 @@ Item {
     property real pairHeight: 0
     // How large the questions of such a page are.
     property real asking: 0
+    // Whether what a number may be has room in its question's line there.
+    property bool ranged: false
     // Whether there is room enough on its page.
     property bool calm: false
     // How much of what can be added to the distances of this page is added, from 0 to 1.
@@ -63,7 +65,7 @@ Item {
     readonly property real addable: alone || beside ? 0 : 32 * Theme.unit
     readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : questionHeight > 0 ? Theme.textSize > 1 ? 16 : 32 : easy ? 18 : airy ? 22 : paired > 0 ? 12 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
-    readonly property real usualMargin: alone ? 0 : own ? Math.max(10 * Theme.unit, rowMargin - taken / 2) : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : questionHeight > 0 ? 12 : easy ? inline ? 26 : 20 : airy ? 26 : paired > 0 ? inline ? 8 : 16 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
+    readonly property real usualMargin: alone ? 0 : own ? Math.max(10 * Theme.unit, rowMargin - taken / 2) : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : questionHeight > 0 ? 12 : easy ? inline ? 26 : 20 : airy ? 26 : paired > 0 ? inline ? ranged ? 14 : 8 : 16 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
     readonly property real taken: flank ? Math.max(0, told.height - rowHeight) : 0
     // Letters have some air above them already; what stands below them does not.
@@ -147,6 +149,7 @@ Item {
                 // Where height is kept for two lines, a word below one line moves no scale.
                 spacing: box.inline ? 0 : box.questionHeight > 0 ? 4 * Theme.unit : content.spacing
                 Balanced {
+                    id: question
                     width: parent.width
                     text: box.item.shown
                     Accessible.name: box.item.text
@@ -162,7 +165,7 @@ Item {
                 // What a number may be, below the question where the number stands beside that.
                 PlainText {
                     width: parent.width
-                    visible: box.inline && text !== ""
+                    visible: box.inline && !box.ranged && text !== ""
                     text: box.item.range ?? ""
                     horizontalAlignment: Text.AlignLeft
                     font.pixelSize: box.large || box.paired > 0 ? Theme.size(32) : Theme.small
@@ -179,6 +182,15 @@ Item {
                     wrapMode: Text.Wrap
                     color: Theme.deepAmber
                 }
+            }
+            // The same in the question's line.
+            PlainText {
+                visible: box.inline && box.ranged
+                x: question.contentWidth + 1.25 * Theme.gap
+                y: told.y + question.y + question.baselineOffset - baselineOffset
+                text: box.item.range ?? ""
+                font.pixelSize: Theme.size(32)
+                color: Theme.faintInk
             }
             Loader {
                 id: way
@@ -309,7 +321,7 @@ Item {
             grown: box.grown
             easy: box.easy
             paired: box.paired
-            gridGap: (box.paired > 0 ? 12 : box.calm ? 18 : 12) * Theme.unit
+            gridGap: (box.paired > 0 || box.calm ? 18 : 12) * Theme.unit
             usual: box.paired > 0 ? box.pairHeight : (box.tight || (Theme.textSize > 1.15 && !box.large) || box.form.items.length > 3 ? 62 : box.airy ? 84 : 76) * Theme.unit
             onPicked: option => several ? box.form.toggle(box.item.id, option) : box.form.choose(box.item.id, option)
         }

@@ -21,6 +21,8 @@ Row {
     required property string hint       // what there is to do, while it is empty
     // Whether it stands beside its question, which then says what it may be.
     property bool inline: false
+    // Beside its question there is nothing to step yet while it is empty: the field has the room of the buttons then.
+    readonly property bool bare: inline && field.length === 0
     property alias text: field.text
     signal typed(string text)
     signal done()
@@ -86,6 +88,14 @@ Row {
         objectName: `less-${number.item}`
         Accessible.name: `${number.label} ${number.less}`
         by: -1
+        visible: !number.bare
+    }
+    Step {
+        objectName: `more-${number.item}`
+        up: true
+        Accessible.name: `${number.label} ${number.more}`
+        by: 1
+        visible: !number.bare
     }
     TypedField {
         id: field
@@ -98,7 +108,8 @@ Row {
         form: number.form
         minus: number.minus
         // As wide as the longest number; digits of another script may be wider still.
-        width: Math.max(Math.max(260, 228 * Theme.textSize) * Theme.unit, Math.max(metrics.advanceWidth(number.widest), contentWidth) + leftPadding + rightPadding + 8 * Theme.unit)
+        settled: Math.max(Math.max(260, 228 * Theme.textSize) * Theme.unit, Math.max(metrics.advanceWidth(number.widest), contentWidth) + leftPadding + rightPadding + 8 * Theme.unit)
+        width: settled + (number.bare ? 2 * (height + number.spacing) : 0)
         height: 1.37 * Theme.body + 32 * Theme.unit
         topPadding: 2 * Theme.unit
         bottomPadding: 2 * Theme.unit
@@ -113,12 +124,6 @@ Row {
         onNegated: text = number.form.negate(number.item, text)
         Keys.onUpPressed: { number.step(1); number.done() }
         Keys.onDownPressed: { number.step(-1); number.done() }
-    }
-    Step {
-        objectName: `more-${number.item}`
-        up: true
-        Accessible.name: `${number.label} ${number.more}`
-        by: 1
     }
     PlainText {
         id: asked

@@ -20,8 +20,9 @@ Rectangle {
     // How much width they have beside a wide page or over an upright one, and how far from the cards they are.
     property real spare: 0
     property real away: 0
-    // Where in the page the middle of the field is.
+    // Where in the page the middle of the field is, and whether nothing stands between the field and the keys.
     property point aim
+    property bool near: false
     signal done()
 
     // A keyboard is not turned round with the page.
@@ -35,7 +36,7 @@ Rectangle {
     readonly property bool flat: numbers && broad && !field?.minus
     readonly property var rows: flat ? ["12345", "67890"] : numbers ? ["123", "456", "789", `${field?.minus ? "-" : ""}0⌫`] : form.keys[shown]
     readonly property int longest: Math.max(10, ...rows.map(row => row.length))
-    readonly property real gap: 8 * Theme.unit
+    readonly property real gap: (flat || numbers && roomy ? 12 : 8) * Theme.unit
     readonly property real room: parent.width
     // Whether a number's keys have an upright page's width.
     readonly property bool broad: parent.width < parent.height
@@ -43,11 +44,11 @@ Rectangle {
     readonly property bool roomy: Window.width - parent.width >= 440 * Theme.unit
     readonly property real keyWidth: numbers ? flat ? fitting(spare - 190 * Theme.unit - gap, 5, 90, 160)
         : broad ? 150 * Theme.unit : roomy ? fitting(spare, 3, 108, 160) : 80 * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
-    readonly property real keyHeight: (numbers ? (flat ? 140 : roomy ? 80 : 68) : 60) * Theme.unit
+    readonly property real keyHeight: (numbers ? (flat ? 140 : roomy ? 72 : 68) : 60) * Theme.unit
 
     // Whether they point at their field, at one side of it.
     readonly property bool points: numbers && (broad ? aim.x > x + radius + 36 * Theme.unit && aim.x < x + width - radius - 36 * Theme.unit
-        : (x >= parent.width || x < 0) && aim.y > y + radius + 24 * Theme.unit && aim.y < y + height - radius - 24 * Theme.unit)
+        : (x >= parent.width || x < 0) && aim.y > y + radius + 28 * Theme.unit && aim.y < y + height - radius - 28 * Theme.unit)
 
     // How wide so many keys in a row are in this room, within these units.
     function fitting(wide: real, many: int, least: real, most: real): real {
@@ -60,7 +61,9 @@ Rectangle {
     x: numbers ? place.x : 0
     y: numbers ? place.y : parent.height - height
     radius: numbers ? Theme.radius : 0
-    color: Theme.sand
+    // A number's look like what the helper says.
+    color: numbers ? Theme.white : Theme.sand
+    border { color: Theme.sea; width: numbers ? 4 * Theme.unit : 0 }
     visible: field !== null
     onFieldChanged: {
         capitals = false
@@ -98,7 +101,7 @@ Rectangle {
         background: Rectangle {
             radius: keyboard.flat ? 16 * Theme.unit : keyboard.numbers ? height / 2 : 10 * Theme.unit
             color: key.pressedIn ? Theme.sea : Theme.white
-            border { color: key.hovered ? Theme.sea : Theme.edge; width: 2 * Theme.unit }
+            border { color: key.hovered || keyboard.numbers ? Theme.sea : Theme.edge; width: (key.hovered && keyboard.numbers ? 4 : 2) * Theme.unit }
             Backspace {
                 visible: key.drawn
                 anchors.centerIn: parent
@@ -117,22 +120,30 @@ Rectangle {
         onClicked: keyboard.shown = leads
     }
 
-    // Like a bubble's tail, to the card of the field that is typed into.
+    // A bubble's tail, to the field that is typed into, or to its card where other things stand between.
     Shape {
         id: tail
         visible: keyboard.points
         readonly property bool after: keyboard.broad ? keyboard.aim.y > keyboard.y : keyboard.x < 0
-        width: keyboard.broad ? Math.min(32 * Theme.unit, keyboard.away - 4 * Theme.unit) : Math.max(30 * Theme.unit, Math.min(96 * Theme.unit, keyboard.away))
-        height: keyboard.broad ? 2 * width : 48 * Theme.unit
+        // From the keys to the field's edge; 0 where it is not for that.
+        readonly property real reach: !keyboard.near || !keyboard.field ? 0
+            : !keyboard.broad ? after ? 0 : keyboard.x - keyboard.aim.x - keyboard.field.settled / 2
+            : (after ? keyboard.aim.y - keyboard.y - keyboard.height : keyboard.y - keyboard.aim.y) - keyboard.field.height / 2
+        width: reach > 0 ? reach : keyboard.broad ? Math.min(32 * Theme.unit, keyboard.away - 4 * Theme.unit)
+            : Math.max(30 * Theme.unit, Math.min(96 * Theme.unit, keyboard.away))
+        height: keyboard.broad && reach <= 0 ? 2 * width : 56 * Theme.unit
         x: keyboard.broad ? keyboard.aim.x - keyboard.x - width / 2 : after ? keyboard.width : -width
         y: keyboard.broad ? (after ? keyboard.height + width / 2 : -width / 2) - height / 2 : keyboard.aim.y - keyboard.y - height / 2
         rotation: (keyboard.broad ? 90 : 0) + (after ? 180 : 0)
         ShapePath {
             fillColor: keyboard.color
-            strokeWidth: -1
-            startX: 0; startY: tail.height / 2
-            PathLine { x: tail.width + 2 * Theme.unit; y: 0 }
-            PathLine { x: tail.width + 2 * Theme.unit; y: tail.height }
+            strokeColor: keyboard.border.color
+            strokeWidth: keyboard.border.width
+            joinStyle: ShapePath.RoundJoin
+            capStyle: ShapePath.FlatCap
+            startX: tail.width + 5 * Theme.unit; startY: 0
+            PathLine { x: Theme.unit; y: tail.height / 2 }
+            PathLine { x: tail.width + 5 * Theme.unit; y: tail.height }
         }
     }
     Grid {

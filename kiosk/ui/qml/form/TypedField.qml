@@ -14,6 +14,7 @@ TextField {
     property bool digits: false
     property bool minus: false          // whether a number may be negative
     property int longest: 32767         // in characters; some take two places of Qt's own count
+    property real settled: width        // how wide it is once something is typed
     // By touch, or by mouse where the study says so: a person who comes by keyboard has one.
     signal pointed()
     // The minus key on the screen was pressed.
@@ -119,7 +120,7 @@ TextField {
     background: Rectangle {
         radius: Theme.radius
         // Of the colour of the keys on the screen that type into it.
-        color: field.activeFocus && !Theme.byKeyboard ? Theme.sand : Theme.white
+        color: field.activeFocus && !Theme.byKeyboard && !field.digits ? Theme.sand : Theme.white
         border { color: Theme.sea; width: (field.activeFocus ? 6 : field.digits ? 4 : 3) * Theme.unit }
         // Inside of a number, which has buttons beside it.
         FocusRing {
