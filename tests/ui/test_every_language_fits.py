@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
+from itertools import pairwise
 from typing import Any
 
 import pytest
@@ -458,33 +459,54 @@ WAYS = (("answer", "-1"), ("answer", "-5"), ("slider", ""))
 """How the ends of a scale of five points and a line are named."""
 
 
-@pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)
-def test_cards_and_scales_stand_at_the_same_places_on_all_pages_of_four_ratings(
+def rating_pages(
     kiosk: tuple[Window, StudyConfig], layout: Layout
-) -> None:
+) -> Iterator[list[tuple[str, QRectF, QRectF, QRectF]]]:
+    """Show each page of four ratings; yield each item's kind and the places of its card, statement and scale."""
     rated = ASKED["social-intelligence"].items + ASKED["trust"].items
     screens, ground = kiosk[0].screens, kiosk[0].shown.contentItem()
     assert list(shown_in(kiosk, layout, ("four ratings",))) == ["four ratings"]
     screens.avatar.leave(away=True)
-    places, gaps = set(), set[int]()
     for first in range(0, len(rated), 4):
         page = rated[first : first + 4]
         screens.form.show(page, 1, 5)
         lay_out(kiosk[0].shown)
         ends = [[find_item(ground, f"{way}-{item.id}{end}") for way, end in WAYS] for item in page]
         scales = [reduce(QRectF.united, (whole(end) for end in both if end is not None)) for both in ends]
-        cards = [find_item(ground, f"item-{item.id}") for item in page]
-        heights = [round(scale.y()) for scale in scales]
-        edges = [(round(scale.x()), round(scale.width()), round(scale.height())) for scale in scales]
-        places.add((tuple(round(whole(card).y()) for card in cards if card), tuple(heights), tuple(edges)))
-        if layout.height > layout.width:
-            asked = {text.property("text").replace("\xa0", " "): painted(text).bottom() for text in texts(ground)}
-            shown = [shown["shown"].replace("\xa0", " ") for shown in screens.form.property("items")]
-            gaps |= {round(scale.y() - asked[text]) for text, scale in zip(shown, scales, strict=True)}
+        cards = [whole(card) for item in page if (card := find_item(ground, f"item-{item.id}")) is not None]
+        asked = {text.property("text").replace("\xa0", " "): painted(text) for text in texts(ground)}
+        shown = [asked[item["shown"].replace("\xa0", " ")] for item in screens.form.property("items")]
+        yield list(zip([item.kind for item in page], cards, shown, scales, strict=True))
     screens.avatar.leave(away=False)
-    ((cards_at, _, _),) = places
-    assert len(set(cards_at)) == 4
-    assert len(gaps) <= 1, "a statement stands at another distance above its scale"
+
+
+def test_cards_and_scales_stand_at_the_same_places_on_all_wide_pages_of_four_ratings(
+    kiosk: tuple[Window, StudyConfig],
+) -> None:
+    cards = set[tuple[int, ...]]()
+    scales = set[tuple[int, int, int, int, int]]()
+    for page in rating_pages(kiosk, Layout(1920, 1080)):
+        cards.add(tuple(round(card.y()) for _, card, _, _ in page))
+        for at, (kind, _, _, scale) in enumerate(page):
+            if kind != "slider":
+                scales.add((at, round(scale.x()), round(scale.y()), round(scale.width()), round(scale.height())))
+    assert len(cards) == 1
+    assert len(scales) == 4
+    assert len({(left, wide, tall) for _, left, _, wide, tall in scales}) == 1
+
+
+def test_all_cards_of_an_upright_page_of_four_ratings_have_the_same_distances(
+    kiosk: tuple[Window, StudyConfig],
+) -> None:
+    gaps = set[int]()
+    for page in rating_pages(kiosk, Layout(1080, 1920)):
+        over = [shown.top() - card.top() for _, card, shown, _ in page]
+        gaps |= {round(scale.top() - shown.bottom()) for _, _, shown, scale in page}
+        under = [card.bottom() - scale.bottom() for _, card, _, scale in page]
+        between = [after.top() - card.bottom() for (_, card, _, _), (_, after, _, _) in pairwise(page)]
+        for distances in (over, under, between):
+            assert max(distances) - min(distances) < 1.5
+    assert len(gaps) == 1, "a statement stands at another distance above its scale"
 
 
 @pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1280, 800), Layout(1080, 1920)], ids=str)

@@ -60,7 +60,7 @@ PageFrame {
     function flanks(): var {
         if (!rates())
             return null
-        const points = Math.max(1, ...form.items.filter(scales).map(item => item.points))
+        const points = Math.max(1, ...form.items.map(item => scales(item) ? item.points : 5))
         for (const [dot, word, letter, most] of [[100, 32, 36, 2], [100, 32, 34, 2], [100, 32, 32, 2], [100, 32, 32, 3],
             [92, 30, 36, 2], [92, 30, 32, 2], [92, 30, 32, 3], [84, 28, 36, 2], [84, 28, 32, 2], [84, 28, 29, 2], [84, 28, 29, 3]]) {
             const point = dot * Theme.unit, end = Theme.size(word), text = Theme.size(letter)
@@ -103,11 +103,10 @@ PageFrame {
         }
         return tall
     }
-    // How much height a card of an upright page of ratings keeps for its question, so that scales stand at the same
-    // places on each of these pages: two lines, unless the page is too low for that.
-    readonly property real questionHeight: {
+    // Whether an upright page of ratings has height for large distances, even with two lines in each card.
+    readonly property bool ample: {
         const two = 2 * 1.37 * Theme.size(38), card = two + 1.37 * Theme.size(30) + (Theme.textSize > 1 ? 194 : 202) * Theme.unit
-        return rated && form.items.length * card <= room - lead ? two : 0
+        return rated && form.items.length * card <= room - lead
     }
     readonly property real spread: (dense || tight ? 8 : tiles !== null ? 16 : 12) * Theme.unit
     // Whether a line over the page tells which page it is.
@@ -372,7 +371,7 @@ PageFrame {
                 let sum = 0
                 for (let i = 0; i < boxes.count; i++) {
                     const box = boxes.itemAt(i) as FormItem
-                    sum += box?.there ? box.plain + (view.tiles !== null ? 16 : view.questionHeight > 0 || view.easy ? 24 : 30) * Theme.unit : 0
+                    sum += box?.there ? box.plain + (view.tiles !== null ? 16 : view.ample || view.easy ? 24 : 30) * Theme.unit : 0
                 }
                 return sum
             }
@@ -445,7 +444,7 @@ PageFrame {
                     rowText: view.rowText
                     textWidth: view.textWidth
                     scaleWidth: view.scaleWidth
-                    questionHeight: view.questionHeight
+                    ample: view.ample
                     headed: !view.repeats(index)
                     // Over an upright page the keys cover other questions: these step back until they can be seen again.
                     opacity: keyboard.card === asked ? 1 : view.setBack

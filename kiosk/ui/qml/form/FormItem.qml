@@ -33,8 +33,8 @@ Item {
     // How much of a row is its text's and its scale's.
     property real textWidth: 0
     property real scaleWidth: 0
-    // How much height is kept for a question above its scale; 0 where it has what it needs.
-    property real questionHeight: 0
+    // Whether an upright page of ratings has height for large distances between a question and its scale.
+    property bool ample: false
     // Large texts need that height themselves.
     readonly property bool airy: large && Theme.textSize <= 1.15
     signal entered(Item field)
@@ -61,11 +61,11 @@ Item {
     readonly property int rows: choices?.rows ?? 0
     readonly property ChoiceList choices: way.item as ChoiceList
     // How high it is without all that, and how much can be added to the distances.
-    readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asked.asks + (way.active ? usualSpacing + (choices?.least ?? way.height) : 0)) + 2 * usualMargin
-    readonly property real addable: alone || beside ? 0 : 32 * Theme.unit
-    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : questionHeight > 0 ? Theme.textSize > 1 ? 16 : 32 : easy ? 18 : airy ? 22 : paired > 0 ? 12 : calm ? 14 : 8) * Theme.unit
+    readonly property real plain: head + (inline ? Math.max(told.height, way.height) : told.height + (way.active ? usualSpacing + (choices?.least ?? way.height) : 0)) + 2 * usualMargin
+    readonly property real addable: alone || beside ? 0 : (ample ? 48 : 32) * Theme.unit
+    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : ample ? Theme.textSize > 1 ? 16 : 32 : easy ? 18 : airy ? 22 : paired > 0 ? 12 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
-    readonly property real usualMargin: alone ? 0 : own ? Math.max(10 * Theme.unit, rowMargin - taken / 2) : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : questionHeight > 0 ? 12 : easy ? inline ? 26 : 20 : airy ? 26 : paired > 0 ? inline ? ranged ? 14 : 8 : 16 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
+    readonly property real usualMargin: alone ? 0 : own ? Math.max(10 * Theme.unit, rowMargin - taken / 2) : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : ample ? 12 : easy ? inline ? 26 : 20 : airy ? 26 : paired > 0 ? inline ? ranged ? 14 : 8 : 16 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
     readonly property real taken: flank ? Math.max(0, told.height - rowHeight) : 0
     // Letters have some air above them already; what stands below them does not.
@@ -130,8 +130,6 @@ Item {
         Item {
             id: asked
             width: parent.width
-            // How high the question is, or the place that is kept for it.
-            readonly property real asks: Math.max(told.height, box.questionHeight)
             // Where the middle of a row is: that of the points, and not of words above them.
             readonly property real scaled: (way.item as PointScale)?.size ?? (way.item as SliderScale)?.rail ?? 0
             // How high the words are that head the points of a table.
@@ -140,14 +138,13 @@ Item {
             readonly property real axis: box.flank ? middle : box.own ? Math.max((height - way.height + scaled) / 2 + 0.3 * box.rowMargin, told.height / 2 - 8 * Theme.unit) : middle
             // Rows of one line and of two are as high; with words for its ends it is as high as a scale and a line of words.
             readonly property real middle: Math.max(box.own ? box.rowHeight : scaled, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
-            height: box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : asks + (way.active ? content.spacing + way.height : 0)
+            height: box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : told.height + (way.active ? content.spacing + way.height : 0)
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.questionHeight > 0 ? content.spacing / 8 + asked.asks - height : 0
+                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.ample ? content.spacing / 8 : 0
                 width: box.beside ? box.textWidth : box.inline ? asked.width - 470 * Theme.unit : asked.width
-                // Where height is kept for two lines, a word below one line moves no scale.
-                spacing: box.inline ? 0 : box.questionHeight > 0 ? 4 * Theme.unit : content.spacing
+                spacing: box.inline ? 0 : box.ample ? 4 * Theme.unit : content.spacing
                 Balanced {
                     id: question
                     width: parent.width
@@ -196,7 +193,7 @@ Item {
                 id: way
                 readonly property real room: box.beside ? box.scaleWidth : asked.width
                 x: Theme.across(box.beside ? asked.width - room : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.flank ? asked.middle - box.flank.point / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : asked.asks + content.spacing
+                y: box.flank ? asked.middle - ((item as SliderScale)?.height ?? box.flank.point) / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.height + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
@@ -290,6 +287,7 @@ Item {
             width: way.room
             own: box.own
             flank: box.flank
+            tall: box.rowHeight + 2 * box.rowMargin
             item: box.item.id
             label: box.item.text
             lowest: box.item.lowest

@@ -25,25 +25,31 @@ Item {
     property bool own: false
     // How its row looks if the words for its ends stand at both sides of the line, level with it; null if they do not.
     property var flank: null
+    // How high that row is, with its margins.
+    property real tall: 0
     signal chosen(int value)
 
     readonly property int range: highest - lowest
     readonly property int leap: Math.max(1, Math.round(range / 10))
+    // Whether its row has room for the words below the line: this then has their width, and beads that are easy to hit.
+    readonly property bool spread: flank !== null && tall >= 112 * Theme.unit + 1.37 * flank.end
+        && Math.max(lower.implicitWidth, upper.implicitWidth) < width / 2 - Theme.gap
     // How high the line is: as the points of the others, and as easy to hit.
-    readonly property real rail: flank?.point ?? (own ? 92 : dense ? 64 : large ? 112 : alone ? 100 : 76) * Theme.unit
+    readonly property real rail: spread ? 84 * Theme.unit : flank?.point ?? (own ? 92 : dense ? 64 : large ? 112 : alone ? 100 : 76) * Theme.unit
     // The handle, with room around it in the line.
     readonly property real thickness: rail - 12 * Theme.unit
 
     readonly property real words: Math.max(lower.height, upper.height)
-    readonly property real apart: (own ? 6 : large && Theme.textSize <= 1.15 ? 14 : 12) * Theme.unit
+    readonly property real apart: (spread ? 4 : own ? 6 : large && Theme.textSize <= 1.15 ? 14 : 12) * Theme.unit
     // Among other kinds of items the ends stand beside the line.
     readonly property bool level: !own && !alone && !large
     readonly property real most: 250 * Theme.unit * Theme.textSize
-    readonly property bool below: !flank && (!level || width < 4 * most)
-    readonly property real leftRoom: flank ? flank.left + Theme.gap : below ? 0 : Math.min(lower.implicitWidth, most) + Theme.gap
-    readonly property real rightRoom: flank ? flank.right + Theme.gap : below ? 0 : Math.min(upper.implicitWidth, most) + Theme.gap
+    readonly property bool below: spread || !flank && (!level || width < 4 * most)
+    readonly property real leftRoom: below ? 0 : flank ? flank.left + Theme.gap : Math.min(lower.implicitWidth, most) + Theme.gap
+    readonly property real rightRoom: below ? 0 : flank ? flank.right + Theme.gap : Math.min(upper.implicitWidth, most) + Theme.gap
 
-    height: flank ? rail : below ? rail + apart + words : Math.max(rail, words)
+    // In a row, what has air below its letters is in the middle by what can be seen of it.
+    height: spread ? rail + apart + words - 8 * Theme.unit : flank ? rail : below ? rail + apart + words : Math.max(rail, words)
 
     PlainText {
         id: lower
@@ -51,8 +57,8 @@ Item {
         x: Theme.across(0, width, scale.width)
         width: scale.below ? slider.width / 2 - Theme.gap : scale.leftRoom - Theme.gap
         text: scale.leftEnd
-        horizontalAlignment: scale.flank ? Text.AlignRight : Text.AlignLeft
-        lineHeight: scale.flank ? 0.9 : 1
+        horizontalAlignment: scale.flank && !scale.spread ? Text.AlignRight : Text.AlignLeft
+        lineHeight: scale.flank && !scale.spread ? 0.9 : 1
         font.pixelSize: scale.flank?.end ?? Theme.size(scale.own ? 28 : 30)
         wrapMode: Text.Wrap
         color: Theme.ink
@@ -86,7 +92,7 @@ Item {
         width: scale.alone ? Math.min(900 * Theme.unit, scale.width) : scale.width - scale.leftRoom - scale.rightRoom
         height: scale.rail
         padding: 0
-        // Its ends stand below the middles of the first point and the last.
+        // Where the line is as wide as the points, its ends stand below the middles of the first and the last.
         leftPadding: (scale.rail - scale.thickness) / 2
         rightPadding: leftPadding
         from: scale.lowest
@@ -142,7 +148,7 @@ Item {
                     // On whole pixels, or small beads look square.
                     x: Math.round(rod.inset + index * pitch - width / 2)
                     y: Math.round((rod.height - height) / 2)
-                    width: 2 * Math.round(Math.min(44 * Theme.unit, 0.68 * pitch, 0.45 * scale.rail) / 2)
+                    width: 2 * Math.round(Math.min(60 * Theme.unit, 0.74 * pitch, (scale.spread ? 0.67 : 0.56) * scale.rail) / 2)
                     height: width
                     radius: width / 2
                     color: Theme.white
