@@ -27,8 +27,10 @@ PanelSection {
     readonly property int mains: (pausing ? 1 : 0) + (choices.canBeNext ? 1 : 0) + (underWay ? 1 : 0)
     readonly property int others: (underWay ? 4 : 3) + (breaks.visible ? breaks.rows : 0)
     readonly property real fixed: frame + (mains + others - 1) * space + lower.words
+    // Whether an upright page has much to tell: a line that can be pressed takes more than one that cannot.
+    readonly property bool full: panel.health.matters.length > 2 || (panel.health.lines[0]?.is_due ?? false)
     readonly property real share: wide && least > 0 && normal ? (least - fixed) / (others + 1.25 * mains) : 0
-    readonly property real tall: Math.floor(Math.max((wide || panel.health.matters.length > 2 ? 80 : 90) * Theme.unit + spread, Math.min(128 * Theme.unit, share)))
+    readonly property real tall: Math.floor(Math.max((wide || full ? 80 : 90) * Theme.unit + spread, Math.min(128 * Theme.unit, share)))
     readonly property real mainTall: Math.floor((wide ? 1.25 : 1.1) * tall)
 
     readonly property real lettering: (normal ? wide ? 1.2 : 1.1 : 1) * Theme.dense

@@ -40,7 +40,7 @@ PanelSection {
         width: parent.width
         columns: health.double ? 2 : 1
         columnSpacing: health.gutter
-        rowSpacing: health.each > 0 ? 0 : (health.panel.health.matters.length > 2 ? 8 : 14) * Theme.unit + health.spread
+        rowSpacing: health.each > 0 ? 0 : (health.due || health.panel.health.matters.length > 2 ? 8 : 14) * Theme.unit + health.spread
         verticalItemAlignment: health.due ? Grid.AlignVCenter : Grid.AlignTop
         // Apart from the others, which are made anew at each change: the keyboard would be lost with it.
         Item {
