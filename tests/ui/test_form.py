@@ -477,17 +477,22 @@ def test_an_upright_page_s_keys_stand_below_their_question_until_another_is_answ
     # Questions that they may cover step back until the keys go.
     others = [booth.item(name) for name in ("item-gender", "item-robots")]
     assert booth.item("item-age").opacity() == 1 > max(other.opacity() for other in others)
-    # Nothing can be stepped before there is a number.
-    end = booth.item("number-age").mapToScene(QPointF(booth.item("number-age").width(), 0))
-    assert not booth.sees("less-age")
-    assert not booth.sees("more-age")
-    booth.click("key-2")
-    assert booth.item("number-age").property("text") == "2"
-    assert booth.sees("less-age")
-    assert booth.sees("more-age")
-    assert booth.item("number-age").mapToScene(QPointF(booth.item("number-age").width(), 0)) == end
+    # Nothing can be stepped before there is a number, nor while the keys enter it: the field stays as wide.
+    field = booth.item("number-age")
+    end, wide = field.mapToScene(QPointF(field.width(), 0)), field.width()
+    for key in ("", "2"):
+        if key:
+            booth.click(f"key-{key}")
+        assert field.property("text") == key
+        assert not booth.sees("less-age")
+        assert not booth.sees("more-age")
+        assert field.width() == wide
+        assert field.mapToScene(QPointF(field.width(), 0)) == end
     booth.click("option-robots-works")
     assert not booth.sees("key-1")
+    assert booth.sees("less-age")
+    assert booth.sees("more-age")
+    assert field.mapToScene(QPointF(field.width(), 0)).x() == end.x()
     assert min(other.opacity() for other in others) == 1
     booth.click("number-age")
     booth.click("key-done")

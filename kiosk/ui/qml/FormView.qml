@@ -449,6 +449,7 @@ PageFrame {
                     // Over an upright page the keys cover other questions: these step back until they can be seen again.
                     opacity: keyboard.card === asked ? 1 : view.setBack
                     inline: view.inline(modelData)
+                    keyed: keyboard.field !== null && keyboard.card === asked
                     onEntered: field => {
                         keyboard.card = asked
                         keyboard.field = field

@@ -28,6 +28,8 @@ Item {
     property real rowMargin: 0
     // Whether a number stands beside its text, at the end of the card.
     property bool inline: false
+    // Whether the keys on the screen type into it.
+    property bool keyed: false
     // How large its text is then.
     property real rowText: Theme.body
     // How much of a row is its text's and its scale's.
@@ -329,6 +331,7 @@ Item {
         NumberField {
             room: content.width
             inline: box.inline
+            keyed: box.keyed
             item: box.item.id
             form: box.form
             label: box.item.text

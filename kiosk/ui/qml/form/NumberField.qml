@@ -21,8 +21,11 @@ Row {
     required property string hint       // what there is to do, while it is empty
     // Whether it stands beside its question, which then says what it may be.
     property bool inline: false
-    // Beside its question there is nothing to step yet while it is empty: the field has the room of the buttons then.
-    readonly property bool bare: inline && field.length === 0
+    // Whether the keys on the screen type into it.
+    property bool keyed: false
+    // Beside its question there is nothing to step yet while it is empty, and those keys are one way to enter it: the
+    // field has the room of the buttons then.
+    readonly property bool bare: inline && (keyed || field.length === 0)
     property alias text: field.text
     signal typed(string text)
     signal done()
