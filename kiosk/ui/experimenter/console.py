@@ -399,6 +399,7 @@ WORDS = (
     "console-key-enter",
     "console-alarms",
     "console-alarms-none",
+    "console-rest-well",
     "console-shortcuts",
     "console-mark-well",
     "console-mark-idle",
