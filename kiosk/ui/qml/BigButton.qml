@@ -40,7 +40,7 @@ Button {
     Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
 
     contentItem: Text {
-        transform: Translate { y: -below.height / 2 - (button.note === "" ? 0 : 4 * Theme.unit) }
+        transform: Translate { y: -below.height / 2 - (button.note === "" ? 0 : 2 * Theme.unit) }
         textFormat: Text.PlainText
         text: button.words
         font: button.font
@@ -55,10 +55,10 @@ Button {
         objectName: "note"
         x: (parent.width - width) / 2
         width: parent.width - 2 * Theme.gap
-        // Both are a little higher than the middle: letters below the line do not reach the edge.
-        y: (parent.height + Math.ceil(1.4 * button.letters) + 2 * Theme.unit - height) / 2 - 4 * Theme.unit
-        // As large as the words leave it height for, up to nine tenths of theirs.
-        readonly property real letters: Math.max(24 * Theme.unit, Math.min(0.9 * button.letters, (button.height - 1.4 * button.letters) / 1.4))
+        // Both are a little higher than the middle: as much is free above the capitals as below the note's letters.
+        y: (parent.height + Math.ceil(1.4 * button.letters) - height) / 2 - 2 * Theme.unit
+        // As large as the words leave it height for. On a wide page, that is the height of a single line.
+        readonly property real letters: Math.max(24 * Theme.unit, Math.min((Theme.upright ? 0.9 : 0.78) * button.letters, (button.height - 1.4 * button.letters) / 1.4))
         height: button.note === "" ? 0 : Math.ceil(1.37 * letters)
         textFormat: Text.PlainText
         text: button.note
