@@ -367,45 +367,19 @@ PageFrame {
             room: view.room - view.lead
             more: view.words["scroll-more"]
             // Further apart where the page has room for it; and what belongs together, too.
-            readonly property real plain: {
-                let sum = 0
-                for (let i = 0; i < boxes.count; i++) {
-                    const box = boxes.itemAt(i) as FormItem
-                    sum += box?.there ? box.plain + (view.tiles !== null ? 16 : view.ample || view.easy ? 24 : 30) * Theme.unit : 0
-                }
-                return sum
-            }
+            readonly property real plain: summed(box => box.plain + (view.tiles !== null ? 16 : view.ample || view.easy ? 24 : 30) * Theme.unit)
+            readonly property int rows: summed(box => box.rows)
             // How much higher than usual each row of options of an upright page is.
-            readonly property real grown: {
-                let rows = 0
-                for (let i = 0; i < boxes.count; i++) {
-                    const box = boxes.itemAt(i) as FormItem
-                    rows += box?.there ? box.rows : 0
-                }
-                return view.easy && rows > 0 ? Math.max(0, Math.min(16 * Theme.unit, Math.floor((room - plain) / rows))) : 0
-            }
-            readonly property real grownBy: {
+            readonly property real grown: view.easy && rows > 0 ? Math.max(0, Math.min(16 * Theme.unit, Math.floor((room - plain) / rows))) : 0
+            readonly property real addable: summed(box => box.addable)
+            readonly property real loosened: (view.calm || view.rated) && addable > 0 ? Math.max(0, Math.min(1, (room - plain - rows * grown) / addable)) : 0
+            readonly property real tall: summed(box => box.height)
+            // Adds up what each item that is there has of something.
+            function summed(of: var): real {
                 let sum = 0
                 for (let i = 0; i < boxes.count; i++) {
                     const box = boxes.itemAt(i) as FormItem
-                    sum += box?.there ? box.rows * grown : 0
-                }
-                return sum
-            }
-            readonly property real addable: {
-                let sum = 0
-                for (let i = 0; i < boxes.count; i++) {
-                    const box = boxes.itemAt(i) as FormItem
-                    sum += box?.there ? box.addable : 0
-                }
-                return sum
-            }
-            readonly property real loosened: (view.calm || view.rated) && addable > 0 ? Math.max(0, Math.min(1, (room - plain - grownBy) / addable)) : 0
-            readonly property real tall: {
-                let sum = 0
-                for (let i = 0; i < boxes.count; i++) {
-                    const box = boxes.itemAt(i) as FormItem
-                    sum += box?.there ? box.height : 0
+                    sum += box?.there ? of(box) : 0
                 }
                 return sum
             }
