@@ -12,7 +12,7 @@ Button {
     // How wide it may be at most; its words then take more lines.
     property real most: Infinity
     property bool quiet: false
-    // A quiet one that is the way on, once what the page asks for is done: a dashed edge, for it is to be filled.
+    // A quiet one that is the way on, once what the page asks for is done: its edge is dashed until then.
     property bool waits: false
     // A line below the words, such as why it waits; it makes the button no higher.
     property string note: ""
