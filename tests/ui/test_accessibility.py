@@ -121,7 +121,14 @@ def test_every_screen_is_on_the_side_that_was_chosen_and_the_assistant_on_the_ot
     [
         (p, *pair)
         for p in LEAST_CONTRAST
-        for pair in [("white", "lightSea"), ("ink", "sand"), ("white", "sea"), ("sea", "paper"), ("faintInk", "shelf")]
+        for pair in [
+            ("white", "lightSea"),
+            ("ink", "sand"),
+            ("ink", "touchable"),
+            ("white", "sea"),
+            ("sea", "paper"),
+            ("faintInk", "shelf"),
+        ]
     ],
 )
 def test_what_is_under_the_mouse_or_switched_on_or_off_stands_out_as_well(palette: str, text: str, paper: str) -> None:

@@ -180,7 +180,7 @@ Flow {
                     height: width
                     radius: list.several ? 7 * Theme.unit : width / 2
                     color: Theme.white
-                    border { color: Theme.sea; width: 3 * Theme.unit }
+                    border { color: option.on ? Theme.white : Theme.sea; width: 3 * Theme.unit }
                     Rectangle {
                         anchors.centerIn: parent
                         width: 18 * Theme.unit
@@ -197,14 +197,14 @@ Flow {
                     text: option.words
                     font: option.font
                     wrapMode: Text.Wrap
-                    color: Theme.ink
+                    color: option.on ? Theme.white : Theme.ink
                 }
             }
             background: Rectangle {
                 radius: Theme.radius
-                // Only what is chosen is filled; the pointer over it changes the edge alone.
-                color: option.on ? Theme.sand : Theme.white
-                border { color: Theme.sea; width: (option.on ? 5 : option.hovered ? 4 : 2) * Theme.unit }
+                // As the points of a scale: pale until it is chosen. The pointer over it changes the edge alone.
+                color: option.on ? Theme.sea : Theme.touchable
+                border { color: Theme.sea; width: (option.hovered ? 4 : 2) * Theme.unit }
                 FocusRing {
                     around: option
                     reach: 7 * Theme.unit

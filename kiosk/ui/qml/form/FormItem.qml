@@ -231,12 +231,12 @@ Item {
                 textFormat: Text.PlainText
                 text: nothing.words
                 font: nothing.font
-                color: Theme.ink
+                color: nothing.on ? Theme.white : Theme.ink
             }
             background: Rectangle {
                 radius: height / 2
-                color: nothing.on ? Theme.sand : Theme.white
-                border { color: nothing.on ? Theme.sea : Theme.edge; width: (nothing.on ? 5 : nothing.hovered ? 4 : 2) * Theme.unit }
+                color: nothing.on ? Theme.sea : Theme.touchable
+                border { color: Theme.sea; width: (nothing.hovered ? 4 : 2) * Theme.unit }
                 FocusRing {
                     around: nothing
                     reach: 6 * Theme.unit

@@ -78,7 +78,7 @@ Row {
         }
         background: Rectangle {
             radius: width / 2
-            color: button.down ? Theme.sand : Theme.white
+            color: button.down ? Theme.sand : Theme.touchable
             border { color: Theme.sea; width: (button.hovered ? 4 : 3) * Theme.unit }
             FocusRing {
                 around: button

@@ -100,7 +100,7 @@ Rectangle {
         }
         background: Rectangle {
             radius: keyboard.flat ? 16 * Theme.unit : keyboard.numbers ? height / 2 : 10 * Theme.unit
-            color: key.pressedIn ? Theme.sea : Theme.white
+            color: key.pressedIn ? Theme.sea : keyboard.numbers ? Theme.touchable : Theme.white
             border { color: key.hovered || keyboard.numbers ? Theme.sea : Theme.edge; width: (key.hovered && keyboard.numbers ? 4 : 2) * Theme.unit }
             Backspace {
                 visible: key.drawn

@@ -119,8 +119,9 @@ TextField {
     }
     background: Rectangle {
         radius: Theme.radius
-        // Of the colour of the keys on the screen that type into it.
-        color: field.activeFocus && !Theme.byKeyboard && !field.digits ? Theme.sand : Theme.white
+        // Of the colour of the keys on the screen that type into it. A number's is like a button while it is empty.
+        color: field.digits ? (prompt.visible && !field.activeFocus ? Theme.touchable : Theme.white)
+            : field.activeFocus && !Theme.byKeyboard ? Theme.sand : Theme.white
         border { color: Theme.sea; width: (field.activeFocus ? 6 : field.digits ? 4 : 3) * Theme.unit }
         // Inside of a number, which has buttons beside it.
         FocusRing {
