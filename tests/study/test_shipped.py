@@ -89,10 +89,10 @@ def test_the_answers_about_robots_are_the_five_of_the_study() -> None:
     assert [question.id for question in questionnaire.questions if question.required is True] == []
 
 
-def test_the_form_about_trust_has_a_slider_beside_its_scale() -> None:
-    questionnaire = shipped("trust")
-    assert [item.kind for item in questionnaire.items].count("slider") == 1
-    assert all(isinstance(item, Likert) for items in questionnaire.scales.values() for item in items)
+def test_the_form_about_trust_has_a_rating_of_ten_points_beside_its_scale() -> None:
+    alone = [item for item in shipped("trust").questions if item.scale is None]
+    assert [(item.id, item.points) for item in alone if isinstance(item, Likert)] == [("TR4", 10)]
+    assert [item.id for items in shipped("trust").scales.values() for item in items] == ["TR1", "TR2", "TR3"]
 
 
 # Information sheets

@@ -25,7 +25,7 @@ from kiosk.config import ASSETS, Settings
 from kiosk.experiment.effects import BoardWait
 from kiosk.experiment.events import TextSize
 from kiosk.experiment.information import Information
-from kiosk.experiment.items import TextPage
+from kiosk.experiment.items import Likert, TextPage
 from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.experiment.session_config import SessionConfig, StudyConfig
 from kiosk.study.loader import read_study
@@ -455,29 +455,31 @@ def test_title_and_ways_stand_at_the_same_places_on_all_pages(
     assert len({bottom for _, bottom in on} - {None}) == 1
 
 
-WAYS = (("answer", "-1"), ("answer", "-5"), ("slider", ""))
-"""How the ends of a scale of five points and a line are named."""
-
-
 def rating_pages(
     kiosk: tuple[Window, StudyConfig], layout: Layout
-) -> Iterator[list[tuple[str, QRectF, QRectF, QRectF]]]:
-    """Show each page of four ratings; yield each item's kind and the places of its card, statement and scale."""
-    rated = ASKED["social-intelligence"].items + ASKED["trust"].items
+) -> Iterator[list[tuple[int, QRectF, QRectF, QRectF]]]:
+    """Show each page of four ratings; yield each item's points and the places of its card, statement and scale."""
+    asked_of = ASKED["social-intelligence"].items + ASKED["trust"].items
+    rated = [item for item in asked_of if isinstance(item, Likert)]
+    assert len(rated) == len(asked_of)
     screens, ground = kiosk[0].screens, kiosk[0].shown.contentItem()
     assert list(shown_in(kiosk, layout, ("four ratings",))) == ["four ratings"]
     screens.avatar.leave(away=True)
     for first in range(0, len(rated), 4):
         page = rated[first : first + 4]
-        screens.form.show(page, 1, 5)
+        screens.form.show(tuple(page), 1, 5)
         lay_out(kiosk[0].shown)
-        ends = [[find_item(ground, f"{way}-{item.id}{end}") for way, end in WAYS] for item in page]
+        ends = [[find_item(ground, f"answer-{item.id}-{end}") for end in item.ends] for item in page]
         scales = [reduce(QRectF.united, (whole(end) for end in both if end is not None)) for both in ends]
         cards = [whole(card) for item in page if (card := find_item(ground, f"item-{item.id}")) is not None]
         asked = {text.property("text").replace("\xa0", " "): painted(text) for text in texts(ground)}
         shown = [asked[item["shown"].replace("\xa0", " ")] for item in screens.form.property("items")]
-        yield list(zip([item.kind for item in page], cards, shown, scales, strict=True))
+        yield list(zip([item.points for item in page], cards, shown, scales, strict=True))
     screens.avatar.leave(away=False)
+
+
+FIVE = 5
+"""How many points the scales have that stand at the same places on all pages."""
 
 
 def test_cards_and_scales_stand_at_the_same_places_on_all_wide_pages_of_four_ratings(
@@ -487,8 +489,8 @@ def test_cards_and_scales_stand_at_the_same_places_on_all_wide_pages_of_four_rat
     scales = set[tuple[int, int, int, int, int]]()
     for page in rating_pages(kiosk, Layout(1920, 1080)):
         cards.add(tuple(round(card.y()) for _, card, _, _ in page))
-        for at, (kind, _, _, scale) in enumerate(page):
-            if kind != "slider":
+        for at, (points, _, _, scale) in enumerate(page):
+            if points == FIVE:
                 scales.add((at, round(scale.x()), round(scale.y()), round(scale.width()), round(scale.height())))
     assert len(cards) == 1
     assert len(scales) == 4

@@ -60,16 +60,20 @@ PageFrame {
     function flanks(): var {
         if (!rates())
             return null
-        const points = Math.max(1, ...form.items.map(item => scales(item) ? item.points : 5))
+        // The words of a row of many points stand below them, in its width.
+        const longer = form.items.filter(item => scales(item) && item.points > 7)
+        const points = Math.max(1, ...form.items.map(item => scales(item) && item.points <= 7 ? item.points : 5))
+        const widest = Math.max(0, ...longer.map(item => item.points * 1.24 * 72 * Theme.unit))
         for (const [dot, word, letter, most] of [[100, 32, 36, 2], [100, 32, 34, 2], [100, 32, 32, 2], [100, 32, 32, 3],
             [92, 30, 36, 2], [92, 30, 32, 2], [92, 30, 32, 3], [84, 28, 36, 2], [84, 28, 32, 2], [84, 28, 29, 2], [84, 28, 29, 3]]) {
             const point = dot * Theme.unit, end = Theme.size(word), text = Theme.size(letter)
             const left = folded("left", end), right = folded("right", end)
-            const scaleWidth = left + right + 2 * Theme.gap + (points + 0.27 * (points - 1)) * point
+            const scaleWidth = Math.max(widest, left + right + 2 * Theme.gap + (points + 0.27 * (points - 1)) * point)
             const textWidth = inner - scaleWidth - 2 * Theme.gap
             const counts = form.items.map(item => lines(item.shown, text, textWidth))
-            const height = Math.max(point, 1.37 * text * Math.max(2, ...counts))
-            if (textWidth > 0.3 * inner && Math.max(...counts) <= most && spareMargin(height) >= 14 * Theme.unit)
+            const height = Math.max(point, longer.length > 0 ? 76 * Theme.unit + 1.37 * end : 0, 1.37 * text * Math.max(2, ...counts))
+            const reach = 1.03 * Math.max(0, ...longer.map(item => Math.max(thin.advanceWidth(item.left), thin.advanceWidth(item.right)))) * end / 100
+            if (reach < scaleWidth / 2 - Theme.gap && textWidth > 0.3 * inner && Math.max(...counts) <= most && spareMargin(height) >= 14 * Theme.unit)
                 return {point, end, left, right, scaleWidth, textWidth, text, height}
         }
         return null
@@ -242,7 +246,7 @@ PageFrame {
         return form.items.every(item => scales(item) || item.kind === "slider")
     }
     function scales(item: var): bool {
-        return item.kind === "likert" && item.points <= 7 && !item.exempts
+        return item.kind === "likert" && !item.exempts
     }
     // Whether the item that is seen before this one has the same scale, and so the same words at its ends.
     function repeats(at: int): bool {

@@ -195,7 +195,7 @@ Item {
                 id: way
                 readonly property real room: box.beside ? box.scaleWidth : asked.width
                 x: Theme.across(box.beside ? asked.width - room : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.flank ? asked.middle - ((item as SliderScale)?.height ?? box.flank.point) / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.height + content.spacing
+                y: box.flank ? asked.middle - height / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.height + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null

@@ -31,7 +31,12 @@ Item {
 
     readonly property bool pictured: pictures.length > 0
     readonly property real wish: (alone ? 132 : beside ? dense ? 72 : 92 : dense ? 58 : tight ? 66 : large ? 112 : 76) * Theme.unit * (pictured ? 1.25 : 1)
-    readonly property real size: flank?.point ?? Math.min(wish, width / (points * 1.45))
+    // Whether there are more points than stand well in a row with the words for their ends: they then have its width,
+    // from edge to edge, and the words stand below them.
+    readonly property bool many: points > 7 && !pictured
+    readonly property bool spread: flank !== null && many
+    readonly property real size: spread ? Math.min(80 * Theme.unit, filling) : flank?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
+    readonly property real filling: width / (points + 0.24 * (points - 1))
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real most: 250 * Theme.unit * Theme.textSize
     readonly property bool roomy: lowest.implicitWidth + highest.implicitWidth + 2 * Theme.gap + points * size + least <= width
@@ -39,12 +44,12 @@ Item {
     readonly property real rightRoom: flank ? flank.right : roomy ? highest.implicitWidth : Math.min(highest.implicitWidth, most)
     readonly property real spare: width - leftRoom - rightRoom - 2 * Theme.gap - points * size
     readonly property real least: 0.42 * size * (points - 1)
-    readonly property bool below: !flank && (alone || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least))
-    readonly property real gap: flank ? spare / Math.max(1, points - 1) : beside ? (width - points * size) / Math.max(1, points - 1) : pictured ? 0.4 * size : alone ? 0.25 * size
+    readonly property bool below: spread || !flank && (alone || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least))
+    readonly property real gap: flank && !spread ? spare / Math.max(1, points - 1) : beside || many && below && !alone ? (width - points * size) / Math.max(1, points - 1) : pictured ? 0.4 * size : alone ? (many ? 0.24 : 0.25) * size
         : Math.min(1.6 * size, Math.max(0.25 * size, (below ? width - points * size : spare) / Math.max(1, points - 1)))
     readonly property real span: points * size + (points - 1) * gap
 
-    readonly property real under: (own ? 6 : large && Theme.textSize <= 1.15 ? 14 : 12) * Theme.unit
+    readonly property real under: (spread ? 4 : own ? 6 : large && Theme.textSize <= 1.15 ? 14 : 12) * Theme.unit
     readonly property real words: Math.max(lowest.height, highest.height)
     // Below a few points there would be room for a few letters only: the ends then reach beyond the points.
     readonly property real half: Math.min(width / 2 - Theme.gap, Math.max(span / 2 - 0.5 * Theme.gap, most))
@@ -52,7 +57,8 @@ Item {
     // In a table the ends stand above the points: they head the rows below, too.
     readonly property real head: beside && headed && !own ? words + lift : 0
 
-    height: flank ? size : beside && !own ? head + row.height : below ? row.height + words + under : Math.max(row.height, words)
+    // In a row, what has air below its letters is in the middle by what can be seen of it.
+    height: spread ? row.height + words + under - 8 * Theme.unit : flank ? size : beside && !own ? head + row.height : below ? row.height + words + under : Math.max(row.height, words)
 
     // Under the first point, or above it; or before it, at the edge where the question begins.
     PlainText {
@@ -62,8 +68,8 @@ Item {
         y: scale.beside && !scale.own ? scale.words - height : scale.below ? row.height + scale.under : (scale.height - height) / 2
         width: scale.below ? scale.half : scale.leftRoom
         text: scale.leftEnd
-        horizontalAlignment: scale.flank ? Text.AlignRight : Text.AlignLeft
-        lineHeight: scale.flank ? 0.9 : 1
+        horizontalAlignment: scale.flank && !scale.spread ? Text.AlignRight : Text.AlignLeft
+        lineHeight: scale.flank && !scale.spread ? 0.9 : 1
         font.pixelSize: scale.flank?.end ?? (scale.own ? Theme.size(28) : scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small)
         wrapMode: Text.Wrap
         color: Theme.ink
