@@ -6,6 +6,7 @@ import pytest
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QAccessible, QAccessibleInterface
 from PySide6.QtQuick import QQuickItem
+from pytestqt.qtbot import QtBot
 
 from kiosk.experiment.information import ConsentPage, Purpose
 from kiosk.ui.simulated_visitor import UiDriver
@@ -150,6 +151,22 @@ def test_to_decline_is_as_easy_to_see_as_to_agree(booth: Booth, done: Done) -> N
     assert decline.property("font") == agree.property("font")
     booth.click("decline")
     assert done == ["declined"]
+
+
+@pytest.mark.usefixtures("done")
+def test_on_an_upright_screen_the_answers_are_two_equal_halves_above_the_way_back(booth: Booth, qtbot: QtBot) -> None:
+    booth.app.screens.kiosk.offer_back(offered=True)
+    window = booth.app.window
+    window.resize(540, 960)
+    qtbot.waitUntil(lambda: window.contentItem().width() == 540)
+    decline, agree, back = (
+        item.mapRectToScene(item.boundingRect()) for item in map(booth.item, ("decline", "agree", "back"))
+    )
+    assert decline.size() == agree.size()
+    assert decline.top() == agree.top()
+    assert decline.left() == pytest.approx(540 - agree.right(), abs=1)
+    assert back.left() == decline.left()
+    assert back.top() > agree.bottom()
 
 
 def test_a_keyboard_alone_decides(booth: Booth, done: Done) -> None:

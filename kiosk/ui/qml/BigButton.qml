@@ -57,8 +57,8 @@ Button {
         width: parent.width - 2 * Theme.gap
         // Both are a little higher than the middle: as much is free above the capitals as below the note's letters.
         y: (parent.height + Math.ceil(1.4 * button.letters) - height) / 2 - 2 * Theme.unit
-        // As large as the words leave it height for. On a wide page, that is the height of a single line.
-        readonly property real letters: Math.max(24 * Theme.unit, Math.min((Theme.upright ? 0.9 : 0.78) * button.letters, (button.height - 1.4 * button.letters) / 1.4))
+        // As large as the words leave it height for.
+        readonly property real letters: Math.max(24 * Theme.unit, Math.min((Theme.upright ? 0.9 : 0.84) * button.letters, (button.height - 1.4 * button.letters) / 1.4))
         height: button.note === "" ? 0 : Math.ceil(1.37 * letters)
         textFormat: Text.PlainText
         text: button.note

@@ -149,7 +149,7 @@ FocusScope {
                 spacing: 1.2 * Theme.gap
                 Repeater {
                     model: calm.lies && !calm.spread ? 3 : 0
-                    Lying { slot: (calm.large ? 200 : 130) * Theme.unit }
+                    Lying { slot: (calm.beside > 0 && calm.large ? 240 : calm.large ? 200 : 130) * Theme.unit }
                 }
             }
             Rectangle {

@@ -151,7 +151,9 @@ Window {
               : root.high ? (boardPage.visible ? Math.min(free, boardPage.view.wish) : free)
               : unwatched ? root.room - corner.height - Theme.gap : root.room * upright
         // Board and assistant stand close together: the board takes what its cards need, at least half of the screen.
-        readonly property real upright: !root.speaks ? (root.texts > 1.15 && root.kiosk.screen !== "form" ? 0.84 : 0.78)
+        // Below the answers to a consent, the way back stands beside the assistant's head.
+        readonly property real sunk: !root.wide && root.avatar.present && root.kiosk.screen === "consent" && root.kiosk.goesBack && root.texts <= 1.15 ? 0.06 : 0
+        readonly property real upright: !root.speaks ? (root.texts > 1.15 && root.kiosk.screen !== "form" ? 0.84 : 0.78 + sunk)
               : attractView.visible ? (root.texts > 1.3 ? 0.76 : Math.max(helper.says ? 0.57 : 0.64, 0.57 + 0.25 * (root.texts - 1)))
               // Its boards keep their distance to the buttons.
               : root.kiosk.screen === "introduction" && root.texts <= 1.15 ? 0.66
@@ -338,8 +340,9 @@ Window {
             beside: root.faceBeside
             atLeft: root.boardOnRight
             bound: root.boardOnRight ? helper.x + helper.width : helper.x
-            least: (roomy ? 480 : large ? 625 : 500) * Theme.unit
-            broadest: 1060 * Theme.unit
+            least: (roomy ? 480 : large ? 740 : 500) * Theme.unit
+            // As the two questions that come at any time.
+            broadest: 1214 * Theme.unit
             veil: speaker > 0 || beside > 0 ? 1 : 0.94
             cardBack: root.cardBack
             cardShadow: root.cardShadow
@@ -360,7 +363,7 @@ Window {
         readonly property real above: !below && corner.visible ? Math.ceil(corner.height + 0.7 * Theme.gap) : 0
         // On an upright screen a long sentence may reach up to the cards, where an announcement stood before it.
         readonly property real reach: boardPage.visible && !root.wide && root.avatar.present && root.texts <= 1 ? 80 * Theme.unit : 0
-        y: below ? stage.y + stage.height - reach : above
+        y: below ? stage.y + stage.height - reach - stage.sunk * root.room : above
         // Beside a robot on a wide screen, what is said ends before the controls.
         // An upright screen's bubble has the edges of its pages, and of the cards.
         width: !below ? root.width - stage.width - Theme.gap : broad ? root.width - (boardPage.visible ? 2 * boardPage.view.edge : 4 * Theme.gap)
@@ -471,7 +474,7 @@ Window {
             bound: root.boardOnRight ? helper.x + helper.width : helper.x
             broadest: 1214 * Theme.unit
             veil: root.asking ? 1 : 0.94
-            least: (roomy ? 1000 : speaker > 0 && boardPage.visible ? 900 : 0) * Theme.unit
+            least: (roomy ? 1130 : speaker > 0 && boardPage.visible ? 900 : 0) * Theme.unit
             speaker: root.faceBelow
             beside: root.faceBeside
             atLeft: root.boardOnRight
@@ -479,8 +482,8 @@ Window {
             sign: "M13 4 H5 V20 H13 M10 12 H20 M16 8 L20 12 L16 16"
             title: root.words["stop-title"]
             line: root.kiosk.stopLine
-            titleSize: roomy ? Theme.size(76) : Theme.figure
-            lineSize: roomy ? Theme.size(42) : large ? Theme.size(36) : Theme.body
+            titleSize: roomy ? Theme.size(80) : Theme.figure
+            lineSize: roomy ? Theme.size(44) : large ? Theme.size(36) : Theme.body
             code: root.kiosk.stopCode
             choices: [{ name: "stop-no", words: root.words["stop-no"] }, { name: "stop-yes", words: root.words["stop-yes"], quiet: true }]
             onChosen: name => name === "stop-yes" ? root.kiosk.stop() : root.kiosk.ask("")

@@ -26,7 +26,7 @@ FocusScope {
     property string name: "continue"
     property string otherName: ""
     // Two ways on share the width of an upright page, in letters that leave both room.
-    readonly property real letters: other === "" ? Theme.onButtons : Theme.body
+    readonly property real letters: other === "" ? Theme.onButtons : halved ? Theme.size(33) : Theme.body
     readonly property alias button: go
     // Where there is room between the way back and the way on.
     readonly property real free: returns ? back.x + back.width : 0
@@ -40,10 +40,15 @@ FocusScope {
 
     readonly property real wish: (goes ? go.implicitWidth : 0) + (refuses ? no.implicitWidth + Theme.gap : 0)
         + (returns ? back.implicitWidth + Theme.gap : 0)
-    readonly property bool beside: wish <= width
+    // Two equal ones take half of an upright page's width each, and the way back stands below them. Larger texts need one row
+    // for each.
+    readonly property bool halved: even && fills && goes && refuses && Theme.textSize <= 1.15
+    readonly property bool beside: !halved && wish <= width
     // How wide both are then: where they have all of the width, or else as their words need.
-    readonly property bool level: even && beside && goes && refuses
-    readonly property real spread: (width - (returns ? back.width + Theme.gap : 0) - Theme.gap) / 2
+    readonly property bool level: halved || even && beside && goes && refuses
+    readonly property real spread: (width - (returns && !halved ? back.width + Theme.gap : 0) - Theme.gap) / 2
+    // Two equal ones are higher than a single one, with air above and below a line and its note.
+    readonly property real stout: halved ? 30 * Theme.unit : even ? 22 * Theme.unit : 0
     readonly property real share: fills ? spread : Math.min(spread, Math.max(go.implicitWidth, no.implicitWidth))
     readonly property real step: 0.5 * Theme.gap
     // As high without a way on, so that the way back stands at the same place.
@@ -52,7 +57,7 @@ FocusScope {
     // Where there are too many for one row: whether the way back stands beside the other one.
     readonly property bool paired: refuses && back.implicitWidth + Theme.gap + no.implicitWidth <= width
 
-    height: beside ? tallest : (goes ? go.height : 0) + (refuses ? no.height + step : 0)
+    height: halved ? go.height + (returns ? Theme.gap + back.height : 0) : beside ? tallest : (goes ? go.height : 0) + (refuses ? no.height + step : 0)
                                + (returns && !paired ? back.height + step : 0)
 
     // The next visitor begins at the way on, whichever button the last one used.
@@ -70,8 +75,8 @@ FocusScope {
              : (ways.beside || ways.paired) && ways.returns ? ways.width - back.width - Theme.gap : ways.width
         x: Theme.across(ways.width - width, width, ways.width)
         // Where the other one has two lines, both grow up and down, and the row stays where it is.
-        y: ways.level ? (ways.tallest - height) / 2 : 0
-        height: ways.level ? Math.max(implicitHeight, no.implicitHeight) : implicitHeight
+        y: ways.level && !ways.halved ? (ways.tallest - height) / 2 : 0
+        height: ways.level ? Math.max(implicitHeight + ways.stout, no.implicitHeight) : implicitHeight
         corner: ways.level ? no.topPadding + no.font.pixelSize : Infinity
         quiet: ways.quiet
         waits: ways.waits
@@ -90,11 +95,11 @@ FocusScope {
         width: ways.level ? ways.share
              : !ways.fills || !ways.returns ? Math.min(implicitWidth, most)
              : ways.beside ? ways.width - go.width - back.width - 2 * Theme.gap : ways.paired ? ways.width - back.width - Theme.gap : ways.width
-        x: Theme.across(ways.width - width - (ways.beside ? go.width + Theme.gap : 0), width, ways.width)
+        x: Theme.across(ways.width - width - (ways.beside || ways.halved ? go.width + Theme.gap : 0), width, ways.width)
         y: ways.level ? go.y : ways.beside ? 0 : go.height + ways.step
         height: ways.level ? go.height : implicitHeight
         quiet: true
-        horizontalPadding: 44 * Theme.unit
+        horizontalPadding: (ways.halved ? 28 : 44) * Theme.unit
         // Two lines need less air above and below them.
         verticalPadding: (ways.level && metrics.advanceWidth(words) > ways.spread - 2 * horizontalPadding ? 10 : 26) * Theme.unit
         FontMetrics {
@@ -112,11 +117,8 @@ FocusScope {
         most: ways.width
         x: Theme.across(0, width, ways.width)
         // Level with a way on of usual letters, also beside one of larger letters.
-        y: alike ? go.y : ways.beside ? ways.tallest - height - Math.min(8 * Theme.unit, (ways.tallest - height) / 2) : ways.paired ? no.y + (no.height - height) / 2 : ways.height - height
-        // Where the ways on fill a row with it, all have one height; on a wide page it stands as on all others.
-        readonly property bool alike: ways.level && ways.fills
-        height: alike ? go.height : ways.paired && !ways.beside ? no.height : implicitHeight
-        corner: alike ? go.corner : Infinity
+        y: ways.halved ? ways.height - height : ways.beside ? ways.tallest - height - Math.min(8 * Theme.unit, (ways.tallest - height) / 2) : ways.paired ? no.y + (no.height - height) / 2 : ways.height - height
+        height: ways.paired && !ways.beside && !ways.halved ? no.height : implicitHeight
         quiet: true
         words: ways.words["control-back"]
         verticalPadding: 18 * Theme.unit - 0.68 * (ways.letters - Theme.body)
