@@ -239,9 +239,7 @@ def test_a_picture_in_a_text_is_asked_for_by_no_screen(
         line = {"name": "robot", "message": answer, "is_ok": True, "is_used": True, "is_due": False, "remedy": ""}
         panel = window.screens.experimenter.parts[2]
         fill_panel(panel)
-        panel.show_health(
-            {"well": True, "summary": answer, "title": answer, "matters": [], "lines": [line], "more": [line]}
-        )
+        panel.show_health({"matters": [], "lines": [line], "more": [line]})
         window.screens.form.show((item,), 1, 1)
         for screen in ("about", "form"):
             window.screens.kiosk.show(screen)
@@ -322,9 +320,7 @@ def fill_panel(panel: PanelScreen) -> None:
     option = [{"value": "one", "label": MARKUP}, {"value": "two", "label": BOLD}]
     line = {"name": MARKUP, "message": PICTURE, "is_ok": False, "is_used": True, "is_due": False, "remedy": BOLD}
     panel.set_language(words)
-    panel.show_health(
-        {"well": False, "summary": MARKUP, "title": MARKUP, "matters": [line], "lines": [line], "more": [line]}
-    )
+    panel.show_health({"matters": [line, line | {"is_due": True}], "lines": [line], "more": [line]})
     tile = {"name": "visitors", "title": MARKUP, "value": BOLD, "line": PICTURE}
     panel.show_today({"clock": MARKUP, "tiles": [tile]})
     panel.list_shortcuts({"title": MARKUP, "rows": [{"keys": BOLD, "words": MARKUP}]})

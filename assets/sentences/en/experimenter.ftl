@@ -32,17 +32,6 @@ console-title = For the experimenter
 console-close = Close
 console-keys = Tab and arrows go around, Enter does it, Esc closes. Left alone for a minute, it closes by itself.
 console-all-well = All is well
-console-rest-well = No other problems
-console-to-do =
-    { $number ->
-        [one] 1 thing to do
-       *[other] { $number } things to do
-    }
-console-more-to-do =
-    { $number ->
-        [one] 1 more thing to do
-       *[other] { $number } more things to do
-    }
 console-session-none = No visitor is there
 console-session-paused = Paused while this is open
 console-session-stays = Stays paused after closing
@@ -87,10 +76,9 @@ console-booth = The booth
 
 ## Health
 
-console-health = How everything is
+console-health = Checks
 console-mark-well = in order
 console-mark-idle = not in use
-console-mark-due = to do
 console-mark-ill = not well
 console-robot = Robot
 console-robot-none = There is none
@@ -106,7 +94,7 @@ console-disk-warn = only { $free } free: make room this evening
 console-disk-refuse = only { $free } free: no session can begin
 console-disk-unknown = how much is free cannot be seen
 console-database = Database
-console-backup-none = no copy: make one
+console-backup-none = no copy yet
 console-backup-made = last copy { $ago }
 console-backup-failed = the last copy failed: { $why }
 console-backup-busy = being made …

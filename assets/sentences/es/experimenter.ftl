@@ -32,17 +32,6 @@ console-title = Panel de control
 console-close = Cerrar
 console-keys = Tab y flechas para moverse, Intro para hacer, Esc para cerrar. Tras un minuto sin nadie se cierra solo.
 console-all-well = Todo está bien
-console-rest-well = Ningún otro problema
-console-to-do =
-    { $number ->
-        [one] 1 cosa por hacer
-       *[other] { $number } cosas por hacer
-    }
-console-more-to-do =
-    { $number ->
-        [one] 1 cosa más por hacer
-       *[other] { $number } cosas más por hacer
-    }
 console-session-none = No hay nadie
 console-session-paused = En pausa por este panel
 console-session-stays = En pausa también después
@@ -87,10 +76,9 @@ console-booth = El puesto
 
 ## Health
 
-console-health = Estado
+console-health = Comprobaciones
 console-mark-well = en orden
 console-mark-idle = no se usa
-console-mark-due = por hacer
 console-mark-ill = no está bien
 console-robot = Robot
 console-robot-none = No hay
@@ -106,7 +94,7 @@ console-disk-warn = solo { $free } libres: haga sitio esta noche
 console-disk-refuse = solo { $free } libres: nadie puede empezar
 console-disk-unknown = no se sabe cuánto queda libre
 console-database = Datos
-console-backup-none = copia por hacer
+console-backup-none = aún no hay copia
 console-backup-made = última copia { $ago }
 console-backup-failed = la última copia falló: { $why }
 console-backup-busy = en curso …
@@ -144,7 +132,7 @@ console-counts-dropped = dejadas
 console-counts-overridden = elegidas a mano
 console-counts-beyond = tras el listado
 console-counts-withdrawn = retiradas
-console-visits = Sin registrar: { $declined } sin consentimiento, { $under_age } menores, { $left } se fueron antes de decidir
+console-visits = Sin registrar: { $declined } sin consentimiento, { $under_age } menores, { $left } se fueron sin decidir
 console-automatic = automática
 console-hidden = oculta
 console-condition-tom = ToM

@@ -32,17 +32,6 @@ console-title = Pannello di controllo
 console-close = Chiudi
 console-keys = Tab e frecce per spostarsi, Invio per eseguire, Esc per chiudere. Dopo un minuto senza nessuno si chiude da sé.
 console-all-well = Tutto bene
-console-rest-well = Nessun altro problema
-console-to-do =
-    { $number ->
-        [one] 1 cosa da fare
-       *[other] { $number } cose da fare
-    }
-console-more-to-do =
-    { $number ->
-        [one] Ancora 1 cosa da fare
-       *[other] Ancora { $number } cose da fare
-    }
 console-session-none = Non c’è nessuno
 console-session-paused = In pausa finché è aperto
 console-session-stays = In pausa anche dopo
@@ -87,10 +76,9 @@ console-booth = La postazione
 
 ## Health
 
-console-health = Stato
+console-health = Controlli
 console-mark-well = in ordine
 console-mark-idle = non in uso
-console-mark-due = da fare
 console-mark-ill = non va bene
 console-robot = Robot
 console-robot-none = Non ce n’è
@@ -106,7 +94,7 @@ console-disk-warn = solo { $free } liberi: fare spazio stasera
 console-disk-refuse = solo { $free } liberi: nessuno può iniziare
 console-disk-unknown = non si sa quanto spazio resta
 console-database = Dati
-console-backup-none = copia da fare
+console-backup-none = ancora nessuna copia
 console-backup-made = ultima copia { $ago }
 console-backup-failed = l’ultima copia non è riuscita: { $why }
 console-backup-busy = in corso …

@@ -47,8 +47,6 @@ from kiosk.ui.experimenter.status import (
     condition_name,
     health_lines,
     health_parts,
-    health_summary,
-    health_title,
     is_pack_changed,
     neutral_names,
     session_rows,
@@ -275,15 +273,12 @@ class Panel:
         more = booth_lines(state, self._booth.assigner.study, self._catalogue)
         if self._unread:
             found = (*found, HealthLine(self._catalogue.text("console-database"), self._unread, is_ok=False))
-        whole = health_summary((*found, *more), self._catalogue)
+        to_do = [line for line in (*found, *more) if not line.is_ok or line.is_due]
         self._screen.show_health(
             {
-                "well": whole.is_ok,
-                "summary": whole.message,
-                "title": health_title((*found, *more), self._catalogue),
-                "matters": [asdict(line) for line in (*found, *more) if not line.is_ok],
-                # What the experimenter has to do stands first.
-                "lines": [asdict(line) for line in sorted(found, key=lambda line: not line.is_due) if line.is_ok],
+                # What a press does stands last.
+                "matters": [asdict(line) for line in sorted(to_do, key=lambda line: line.is_due)],
+                "lines": [asdict(line) for line in found if line not in to_do],
                 "more": [asdict(line) for line in more],
             }
         )
@@ -399,11 +394,10 @@ WORDS = (
     "console-key-enter",
     "console-alarms",
     "console-alarms-none",
-    "console-rest-well",
+    "console-health",
     "console-shortcuts",
     "console-mark-well",
     "console-mark-idle",
-    "console-mark-due",
     "console-mark-ill",
     "console-counts",
     "console-counts-unlisted",

@@ -171,22 +171,6 @@ def health_parts(state: HealthInputs, catalogue: Catalogue) -> Iterator[PartStat
     yield from (PartStatus(name, line.is_ok, line.message) for name, line in lines.items())
 
 
-def health_summary(found: tuple[HealthLine, ...], catalogue: Catalogue) -> HealthLine:
-    """One line for all, or one for each thing that is not well."""
-    ill = [line for line in found if not line.is_ok]
-    if not ill:
-        return HealthLine("", catalogue.text("console-all-well"))
-    return HealthLine("", "\n".join(f"{line.name}: {line.message}" for line in ill), is_ok=False)
-
-
-def health_title(found: tuple[HealthLine, ...], catalogue: Catalogue) -> str:
-    """Return the heading of the lines that are well: how many things are to be done, if any are."""
-    is_well, due = all(line.is_ok for line in found), sum(line.is_due for line in found)
-    if due:
-        return catalogue.text("console-to-do" if is_well else "console-more-to-do", number=due)
-    return catalogue.text("console-health" if is_well else "console-rest-well")
-
-
 def _robot(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
     name = catalogue.text("console-robot")
     if state.robot is None:
@@ -232,7 +216,7 @@ def _database(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
     if state.last_backup is None:
         if state.copy:
             return HealthLine(name, state.copy, is_used=False)
-        return HealthLine(name, translate("console-backup-none"), is_due=True)
+        return HealthLine(name, translate("console-backup-none"), remedy=translate("console-backup"), is_due=True)
     if state.last_backup.file is None:
         return HealthLine(name, translate("console-backup-failed", why=state.last_backup.why), is_ok=False)
     minutes = max(0, state.clocks.now_ms - state.last_backup.at_ms) // MS_PER_MINUTE

@@ -183,7 +183,7 @@ class PanelScreen(QObject):
         super().__init__(parent)
         self._open = False
         self._words: dict[str, str] = {}
-        self._health: Row = {"well": True, "summary": "", "title": "", "matters": [], "lines": [], "more": []}
+        self._health: Row = {"matters": [], "lines": [], "more": []}
         self._today: Row = {"clock": "", "tiles": []}
         self._shortcuts: Row = {"title": "", "rows": []}
         self._records: Row = {
@@ -214,9 +214,9 @@ class PanelScreen(QObject):
         self.opened.emit()
 
     def show_health(self, health: Row) -> None:
-        """Show how everything is: ``well``, ``summary``, ``title``, and lists of a health line's fields.
+        """Show how everything is: lists of a health line's fields.
 
-        ``matters`` are not well, ``lines`` under the ``title`` are, and ``more`` is what stays as it is all day.
+        ``matters`` are not well or to be done, ``lines`` are well, and ``more`` is what stays as it is all day.
         """
         if health != self._health:
             self._health = health

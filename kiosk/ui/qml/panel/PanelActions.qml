@@ -24,11 +24,11 @@ PanelSection {
     // How high they are: in a column of their own they share what it has.
     readonly property bool underWay: choices.underWay
     readonly property bool pausing: choices.onBreak ?? false
-    readonly property int mains: (pausing ? 1 : 0) + (choices.canBeNext ? 1 : 0) + (underWay ? 1 : 0)
-    readonly property int others: (underWay ? 4 : 3) + (breaks.visible ? breaks.rows : 0)
+    readonly property int mains: (pausing ? 1 : 0) + (choices.canBeNext ? 1 : 0)
+    readonly property int others: (underWay ? 5 : 3) + (breaks.visible ? breaks.rows : 0)
     readonly property real fixed: frame + (mains + others - 1) * space + lower.words
-    // Whether an upright page has much to tell: a line that can be pressed takes more than one that cannot.
-    readonly property bool full: panel.health.matters.length > 2 || (panel.health.lines[0]?.is_due ?? false)
+    // Whether an upright page has much to tell.
+    readonly property bool full: panel.health.matters.length > 2
     readonly property real share: wide && least > 0 && normal ? (least - fixed) / (others + 1.25 * mains) : 0
     readonly property real tall: Math.floor(Math.max((wide || full ? 80 : 90) * Theme.unit + spread, Math.min(128 * Theme.unit, share)))
     readonly property real mainTall: Math.floor((wide ? 1.25 : 1.1) * tall)
@@ -36,7 +36,7 @@ PanelSection {
     readonly property real lettering: (normal ? wide ? 1.2 : 1.1 : 1) * Theme.dense
 
     title: words["console-actions"]
-    apart: (wide ? 12 : 18) * Theme.unit
+    apart: (wide ? 12 : full ? 14 : 18) * Theme.unit
 
     // The largest: what is pressed all day.
     component Main: PanelButton {
@@ -76,10 +76,10 @@ PanelSection {
         drawing: "M3.5 4.5 H20.5 V16 H11.5 L7 20.5 V16 H3.5 Z"
         onClicked: actions.panel.wish("test_voice", "")
     }
-    // Upright in two columns, unless the words of one need more.
+    // Upright in two columns, unless the words of one need more. Why a copy has to wait may take two lines.
     Grid {
         id: pairs
-        readonly property bool fits: [pause, again, backup, mute].every(each => !each.visible || each.implicitWidth <= actions.half)
+        readonly property bool fits: [pause, again, backup, mute].every(each => !each.visible || !each.enabled || each.implicitWidth <= actions.half)
         readonly property real each: columns === 1 ? actions.across : actions.half
         columns: !actions.wide && fits ? 2 : 1
         columnSpacing: actions.gutter
@@ -88,7 +88,7 @@ PanelSection {
             id: pause
             objectName: "action-pause"
             visible: actions.underWay
-            least: actions.wide ? actions.mainTall : actions.tall
+            least: actions.tall
             width: pairs.each
             horizontalPadding: actions.edge
             rightPadding: actions.edge - (Theme.mirrored ? 0 : 6 * Theme.unit)
@@ -104,8 +104,6 @@ PanelSection {
             id: again
             objectName: "action-again"
             visible: actions.underWay
-            // As high as what it stands beside.
-            least: pairs.columns === 1 ? actions.tall : pause.height
             width: pairs.each
             words: actions.words["console-repeat"]
             drawing: "M19.5 12 A7.5 7.5 0 1 1 16.6 6.1 M17.5 2 V6.8 H12.7"

@@ -22,6 +22,9 @@ PanelSection {
         return (at === 4 ? room : grid[at + 1]) - grid[at] - (at === 4 ? 0 : 8 * Theme.unit)
     }
 
+    // What its last sentence takes beside one line.
+    readonly property real further: visits.height - visits.height / Math.max(1, visits.lineCount)
+
     readonly property real between: 0.75 * Theme.gap
     readonly property real room: width - 2 * inset
     readonly property real first: Math.min(0.3 * room, Math.max(0.1 * room, Math.ceil(Math.max(0, ...records.cells.map(cell => letters.advanceWidth(cell.name))) * size / 90)))
@@ -147,6 +150,7 @@ PanelSection {
         onClicked: counts.asked()
     }
     Balanced {
+        id: visits
         width: parent.width
         text: counts.records.visits
         horizontalAlignment: Text.AlignLeft

@@ -18,9 +18,9 @@ Row {
         id: mark
         well: row.line.is_ok
         idle: !row.line.is_used
-        due: row.line.is_due
+        grown: 1.25
         size: row.size
-        words: row.words[!row.line.is_ok ? "console-mark-ill" : due ? "console-mark-due" : idle ? "console-mark-idle" : "console-mark-well"]
+        words: row.words[!row.line.is_ok ? "console-mark-ill" : idle ? "console-mark-idle" : "console-mark-well"]
     }
     PlainText {
         id: name
@@ -34,7 +34,7 @@ Row {
         width: row.width - mark.width - name.width - 2 * row.spacing
         text: row.line.message
         font { pixelSize: row.size; bold: !row.line.is_ok }
-        color: row.line.is_ok && !row.line.is_due ? Theme.faintInk : Theme.deepAmber
+        color: row.line.is_ok ? Theme.faintInk : Theme.deepAmber
         wrapMode: Text.Wrap
     }
 }

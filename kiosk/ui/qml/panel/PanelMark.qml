@@ -1,5 +1,5 @@
-// How something is, told by shape and colour: a tick, a hollow ring for what is not in use, an empty box for what is to be
-// done, a disc for what is under way, or a triangle for what is not well.
+// How something is, told by shape and colour: a tick, a hollow ring for what is not in use, a disc for what is under
+// way, or a triangle for what is not well or to be done.
 pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Shapes
@@ -10,18 +10,19 @@ Item {
 
     required property bool well
     property bool idle: false
-    property bool due: false
     property bool running: false
-    readonly property real stroke: Math.max(2, Math.round(0.11 * size))
+    readonly property real stroke: Math.max(2, Math.round(0.11 * grown * size))
     // What it says to those who cannot see it, where no words beside it do.
     property string words: ""
     property real size: Theme.dense
-    property color tone: well && !due ? Theme.sea : Theme.deepAmber
-    // As high as a capital, and level with those of the words beside it: drawn, for a letter may come from another font.
-    readonly property real side: Math.round(0.74 * size)
+    // How much larger it is than a capital.
+    property real grown: 1
+    property color tone: well ? Theme.sea : Theme.deepAmber
+    // About as high as a capital, and level with those of the words beside it: drawn, for a letter may come from another font.
+    readonly property real side: Math.round(0.74 * grown * size)
     readonly property real above: Math.round(letters.ascent - 0.36 * size - side / 2)
 
-    width: size
+    width: grown * size
     height: letters.height
     Accessible.ignored: words === ""
     Accessible.role: Accessible.Graphic
@@ -32,23 +33,23 @@ Item {
         font.pixelSize: mark.size
     }
     Rectangle {
-        visible: mark.well && (mark.idle || mark.due || mark.running)
+        visible: mark.well && (mark.idle || mark.running)
         y: mark.above
         width: mark.side
         height: mark.side
-        radius: mark.due ? 0.15 * mark.side : mark.side / 2
+        radius: mark.side / 2
         color: mark.running ? mark.tone : "transparent"
         border { color: mark.tone; width: mark.stroke }
     }
     Shape {
-        visible: mark.well && !mark.idle && !mark.due && !mark.running
+        visible: mark.well && !mark.idle && !mark.running
         y: mark.above
         width: mark.side
         height: mark.side
         ShapePath {
             fillColor: "transparent"
             strokeColor: mark.tone
-            strokeWidth: 0.16 * mark.size
+            strokeWidth: 0.16 * mark.grown * mark.size
             capStyle: ShapePath.RoundCap
             joinStyle: ShapePath.RoundJoin
             PathPolyline { path: [Qt.point(0.08 * mark.side, 0.55 * mark.side), Qt.point(0.38 * mark.side, 0.86 * mark.side), Qt.point(0.95 * mark.side, 0.16 * mark.side)] }

@@ -1,28 +1,34 @@
-// That all is well, or what is not: a line for each matter, and what to do about it.
+// Everything that is to be done: a line for each matter, with what to do about it. A copy of the database is made right there.
 pragma ComponentBehavior: Bound
 import QtQuick
+import Recollect
 import ".."
 
 Rectangle {
     id: notice
 
-    required property var health
+    required property PanelScreen panel
     required property real size
-    readonly property color front: Theme.ink
-    readonly property color sign: health.well ? Theme.sea : Theme.deepAmber
+    readonly property var matters: panel.health.matters
     // The bar at its edge has the colour that warns; the ground is pale, so that the actions are seen first.
     readonly property real bar: 14 * Theme.unit
+
+    // A press does this one, so it comes last and is not made anew with the others: the keyboard would be lost with it.
+    readonly property var due: matters.find(matter => matter.is_due) ?? null
 
     // What to do stands behind what is wrong, in a column of its own, where both fit in one line; otherwise below it.
     // They are written a little smaller if they fit so.
     readonly property real room: width - 2 * inset - 1.4 * size
     readonly property real inset: Math.round(1.1 * Theme.gap)
-    readonly property real whole: widest(bold, health.matters.map(matter => said(matter)), bold.font)
-    readonly property real both: whole + widest(plain, health.matters.map(matter => matter.remedy), plain.font)
+    readonly property real whole: widest(bold, matters.map(matter => said(matter)), bold.font)
+    readonly property real both: whole + widest(plain, matters.map(matter => matter.remedy), plain.font)
     readonly property real fitting: Math.min(1, (room - 1.5 * Theme.gap) / both)
     readonly property bool beside: fitting >= 0.89
     readonly property real written: beside && fitting < 1 ? Math.floor(fitting * size) : size
     readonly property real longest: Math.ceil(whole * written / size) + 2 * Theme.unit
+    readonly property real second: longest + 1.5 * Theme.gap
+    // With a button among them, all lines are as high as what is seen of it.
+    readonly property real tall: due && beside ? Math.max(place.height, Math.ceil(1.5 * written)) : 0
 
     function said(matter: var): string {
         return `${matter.name}: ${matter.message}`
@@ -34,7 +40,7 @@ Rectangle {
 
     height: sentence.height + 1.2 * Theme.gap
     radius: Theme.radius
-    color: health.well ? Theme.sea : Theme.amber
+    color: Theme.amber
 
     Rectangle {
         readonly property real line: 2 * Theme.unit
@@ -47,7 +53,7 @@ Rectangle {
         bottomLeftRadius: Theme.mirrored ? radius : 0
         topRightRadius: Theme.mirrored ? 0 : radius
         bottomRightRadius: Theme.mirrored ? 0 : radius
-        color: notice.health.well ? Theme.white : Theme.cautious
+        color: Theme.cautious
     }
     FontMetrics {
         id: bold
@@ -59,54 +65,85 @@ Rectangle {
     }
     Column {
         id: sentence
-        objectName: "panel-summary"
         anchors { left: parent.left; right: parent.right; margins: notice.inset; verticalCenter: parent.verticalCenter }
-        spacing: (notice.beside ? 4 : 10) * Theme.unit
-        Row {
-            visible: notice.health.well
-            spacing: 0.4 * notice.size
-            PanelMark {
-                well: true
-                size: notice.size
-                tone: notice.sign
-            }
-            PlainText {
-                width: notice.room
-                text: notice.health.summary
-                font { pixelSize: notice.size; bold: true }
-                color: notice.front
-                wrapMode: Text.Wrap
-            }
-        }
+        spacing: notice.tall > 0 ? 0 : (notice.beside ? 4 : 8) * Theme.unit
         Repeater {
-            model: notice.health.matters
+            model: notice.matters.filter(matter => !matter.is_due)
             delegate: Row {
                 id: matter
                 required property var modelData
                 width: sentence.width
+                height: Math.max(implicitHeight, notice.tall)
+                topPadding: Math.max(0, (notice.tall - words.height) / 2)
                 spacing: 0.4 * notice.size
                 PanelMark {
                     well: false
                     size: notice.written
-                    tone: notice.sign
                 }
                 // A matter's further lines stand below its words, and not below its mark.
                 Flow {
+                    id: words
                     width: notice.room
                     PlainText {
-                        width: notice.beside ? notice.longest + 1.5 * Theme.gap : parent.width
+                        width: notice.beside ? notice.second : parent.width
                         text: notice.said(matter.modelData)
                         font { pixelSize: notice.written; bold: true }
-                        color: notice.front
+                        color: Theme.ink
                         wrapMode: Text.Wrap
                     }
                     PlainText {
                         visible: text !== ""
-                        width: notice.beside ? notice.room - notice.longest - 1.5 * Theme.gap : parent.width
+                        width: notice.beside ? notice.room - notice.second : parent.width
                         text: matter.modelData.remedy
                         font.pixelSize: notice.written
-                        color: notice.front
+                        color: Theme.ink
                         wrapMode: Text.Wrap
+                    }
+                }
+            }
+        }
+        Row {
+            visible: notice.due !== null
+            spacing: 0.4 * notice.size
+            PanelMark {
+                anchors.verticalCenter: own.verticalCenter
+                well: false
+                size: notice.written
+            }
+            Flow {
+                id: own
+                // Where what to do stands below, the button is at the end of the line, or below it where that has no room.
+                readonly property bool shared: notice.beside || told.implicitWidth + Theme.gap + copy.width <= width
+                width: notice.room
+                PlainText {
+                    id: told
+                    width: notice.beside ? notice.second : own.shared ? own.width - copy.width : own.width
+                    height: own.shared ? Math.max(implicitHeight, place.height) : implicitHeight
+                    verticalAlignment: Text.AlignVCenter
+                    text: notice.due ? notice.said(notice.due) : ""
+                    font { pixelSize: notice.written; bold: true }
+                    color: Theme.ink
+                    wrapMode: Text.Wrap
+                }
+                // A finger reaches it above and below what is seen of it, so that the lines stay close.
+                Item {
+                    id: place
+                    width: copy.width
+                    height: copy.height - 2 * copy.topInset
+                    PanelButton {
+                        id: copy
+                        objectName: "health-backup"
+                        anchors.centerIn: parent
+                        width: Math.min(Math.ceil(implicitWidth), own.width)
+                        enabled: notice.panel.choices.backup === ""
+                        least: 68 * Theme.unit
+                        topInset: 12 * Theme.unit
+                        bottomInset: topInset
+                        ground: Theme.white
+                        words: notice.due?.remedy ?? ""
+                        drawing: "M8.5 8 H20 V21 H8.5 Z M5 16 H4 V3 H15.5 V4.5"
+                        font.pixelSize: notice.written
+                        onClicked: notice.panel.wish("backup", "")
                     }
                 }
             }

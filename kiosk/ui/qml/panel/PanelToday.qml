@@ -27,11 +27,13 @@ Item {
 
     // What a wide screen has left is shared among the rows of the counts and of the sessions.
     readonly property int rows: panel.records.cells.length + panel.records.sessions.length
-    readonly property real leftOver: room > 0 && Theme.textSize <= 1.15 ? room - (395 + 45 * rows) * Theme.unit : 0
+    readonly property real leftOver: room > 0 && Theme.textSize <= 1.15 ? room - counts.further - (370 + 45 * rows) * Theme.unit : 0
     readonly property real airy: 10 * Theme.unit + Math.max(0, Math.min(16 * Theme.unit, leftOver / (rows + 2)), spread)
     // On an upright one it is shared among all, as long as there is little to tell.
-    readonly property bool calm: !wide && Theme.textSize <= 1.15 && panel.health.matters.length < 3 && panel.alarms.length === 0 && panel.records.resumable.length === 0 && !panel.choices.canBeNext && !(panel.choices.onBreak ?? false)
+    readonly property bool calm: !wide && Theme.textSize <= 1.15 && panel.health.matters.length < 4 && panel.alarms.length === 0 && panel.records.resumable.length === 0 && !panel.choices.canBeNext && !(panel.choices.onBreak ?? false)
     readonly property real spread: calm ? Math.floor(Math.max(0, Math.min(24 * Theme.unit, (seen - first.height - (1190 + 66 * rows) * Theme.unit) / (rows + 9)))) : 0
+    // Words that need more lines than usual take what they lack from between the checks.
+    readonly property real lack: wide ? 0 : Math.max(-12 * Theme.unit, Math.min(0, (seen - first.height - (1080 + 66 * rows) * Theme.unit) / 2))
 
     // On an upright screen all second columns begin in line, and with them the fourth of the grid that both tables share.
     readonly property real gutter: Math.round(40 * Theme.unit)
@@ -39,7 +41,7 @@ Item {
     readonly property real across: Math.floor(counts.width - 2 * counts.inset)
     readonly property real fourth: Math.floor((across - gutter) / 2) + gutter
     readonly property list<real> grid: (!tabled ? [] : wide ? [0, 0.142, 0.29, 0.486, 0.775].map(each => each * across) : [0, fourth / 3, 2 * fourth / 3, fourth, fourth + 0.235 * across]).map(each => Math.round(each))
-    readonly property real figure: tabled && !wide && panel.health.matters.length < 3 && panel.records.sessions.length < 6 ? 32 * Theme.textSize * Theme.unit : size
+    readonly property real figure: tabled && !wide && panel.health.matters.length < 4 && panel.records.sessions.length < 6 ? 30 * Theme.textSize * Theme.unit : size
 
     height: wide ? Math.max(right.height, left.y + left.height, middle.y + middle.height) : middle.y + middle.height
 
@@ -48,7 +50,7 @@ Item {
         width: today.main
         spacing: today.space
         PanelNow { width: parent.width; panel: today.panel; size: today.size; wide: today.wide || Theme.textSize <= 1.15; split: today.wide ? today.half + today.space : Math.round(0.46 * width) }
-        PanelNotice { width: parent.width; size: Theme.upright ? today.size : 1.12 * Theme.dense; health: today.panel.health }
+        PanelNotice { width: parent.width; size: Theme.upright ? today.size : 1.12 * Theme.dense; panel: today.panel; visible: matters.length > 0 }
     }
     Column {
         id: right
@@ -63,7 +65,7 @@ Item {
             size: today.size
             // Beside the others it ends with them, if what stands at its foot is seen then.
             spread: today.spread
-            least: today.wide && today.panel.records.resumable.length === 0 ? Math.min(today.foot, today.seen) : 0
+            least: today.wide && today.panel.records.resumable.length === 0 ? Math.floor(Math.min(today.foot, today.seen)) : 0
         }
         PanelResume { width: parent.width; panel: today.panel }
     }
@@ -80,7 +82,7 @@ Item {
             double: !today.wide && Theme.textSize <= 1.15
             gutter: today.gutter
             least: today.room
-            spread: today.spread
+            spread: today.spread + today.lack
             // Its heading is level with that of the counts beside it.
             crown: today.wide ? counts.crown : 0
         }
