@@ -71,6 +71,17 @@ class Obstacle:
         return f"{self.words}; {self.remedy}"
 
 
+def draw_in_software() -> None:
+    """Have Qt draw in software and on one thread; call it before the application object is made.
+
+    Qt gives every fill of a hundred lines or more to a pool of threads, and the interface waits for each of them. That
+    gains nothing with a picture of this size, and beside other programs the wait can be longer than a frame.
+    """
+    os.environ.setdefault("QT_QUICK_BACKEND", "software")
+    os.environ.setdefault("QSG_RENDER_LOOP", "basic")
+    os.environ.setdefault("QT_NO_GUI_THREADPOOL", "1")
+
+
 def obstacle(environment: Mapping[str, str] = os.environ) -> Obstacle | None:
     """Return what keeps Qt from opening a window, or None if one of its platforms would do."""
     if not sys.platform.startswith("linux"):

@@ -19,6 +19,7 @@ from PySide6.QtQuick import QQuickWindow
 from kiosk.places import ASSETS
 from kiosk.sd_notify import Notifier
 from kiosk.ui.event_loop import after_first_frame
+from kiosk.ui.qt_platform import draw_in_software
 
 # PySide6.QtQuick must be known before a window is asked for, or it comes back as a plain QWindow.
 
@@ -30,8 +31,7 @@ LOOK_MS = 1000
 
 def show_splash(lines: Sequence[str]) -> None:
     """Show these lines until the supervisor is gone, or ends this process."""
-    os.environ.setdefault("QT_QUICK_BACKEND", "software")
-    os.environ.setdefault("QSG_RENDER_LOOP", "basic")
+    draw_in_software()
     # Python hears nothing while nothing happens here; let the system end the process itself.
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     signal.signal(signal.SIGINT, signal.SIG_DFL)

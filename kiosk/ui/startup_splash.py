@@ -19,6 +19,7 @@ from PySide6.QtGui import QColor, QGuiApplication, QIcon, QPainter, QPaintEvent,
 from kiosk.files import open_to_read
 from kiosk.places import ASSETS
 from kiosk.ui.displays import numbered_screens
+from kiosk.ui.qt_platform import draw_in_software
 
 PAPER = "#FBF6EC"
 """The background of a study that names none."""
@@ -113,6 +114,7 @@ class Splash(QRasterWindow):
 
 def show(look: Look) -> Splash:
     """Cover the screen, and return the window once its picture is there."""
+    draw_in_software()
     existing = QGuiApplication.instance()
     application = existing if isinstance(existing, QGuiApplication) else QGuiApplication(["recollect"])
     splash = Splash(look)

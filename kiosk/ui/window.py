@@ -20,7 +20,7 @@ from kiosk.experiment.session_config import StudyConfig
 from kiosk.lazy_dataclass import dataclass
 from kiosk.ui.fonts import use_fonts
 from kiosk.ui.input import HeldKeys
-from kiosk.ui.qt_platform import obstacle
+from kiosk.ui.qt_platform import draw_in_software, obstacle
 from kiosk.ui.replay_controls import ReplayControls
 from kiosk.ui.screens.registry import ScreenSet
 
@@ -181,8 +181,7 @@ def application(display: WindowMode, fonts: Sequence[Path] = ()) -> QGuiApplicat
 
     ``fonts`` are files of fonts for letters that the shipped one lacks.
     """
-    os.environ.setdefault("QT_QUICK_BACKEND", "software")
-    os.environ.setdefault("QSG_RENDER_LOOP", "basic")
+    draw_in_software()
     if display is WindowMode.NOWHERE:
         os.environ["QT_QPA_PLATFORM"] = "offscreen"
     existing = QGuiApplication.instance()

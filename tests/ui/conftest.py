@@ -12,6 +12,7 @@ from tempfile import mkdtemp
 os.environ["QT_QPA_PLATFORM"] = "offscreen"
 os.environ["QT_QUICK_BACKEND"] = "software"
 os.environ["QSG_RENDER_LOOP"] = "basic"
+os.environ["QT_NO_GUI_THREADPOOL"] = "1"
 
 import pytest
 from PySide6.QtCore import Qt

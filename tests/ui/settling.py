@@ -23,6 +23,7 @@ from typing import Any
 os.environ["QT_QPA_PLATFORM"] = "offscreen"
 os.environ["QT_QUICK_BACKEND"] = "software"
 os.environ["QSG_RENDER_LOOP"] = "basic"
+os.environ["QT_NO_GUI_THREADPOOL"] = "1"
 # A machine without a font for one of the scripts shows boxes, which have a size as well; Qt says so for every text.
 os.environ["QT_LOGGING_RULES"] = "qt.text.font.db=false"
 
