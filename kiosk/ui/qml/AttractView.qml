@@ -28,10 +28,14 @@ FocusScope {
     readonly property bool ample: upright && Theme.textSize <= 1.15
     readonly property real widest: width / (1.12 * columns + (upright ? 0.42 : 0.7))
     // The buttons are as wide as each other and end with the cards, where their words fit.
-    readonly property bool even: several && attract.ways.every(way => letters.advanceWidth(way.start) + 48 * Theme.unit <= (upright ? 1 : 0.9) * share(widest))
+    readonly property bool even: several && longest(attract.ways, letters.font) + 48 * Theme.unit <= (upright ? 1 : 0.9) * share(widest)
     function share(size: real): real {
         const count = Math.max(1, attract.ways.length)
         return Math.min(460 * Theme.unit, Math.floor((size * (1.12 * columns - 0.15) - (count - 1) * starts.columnSpacing) / count))
+    }
+    // What is measured depends on the font, which is named for that reason alone.
+    function longest(ways: var, _font: font): real {
+        return Math.max(0, ...ways.map(way => letters.advanceWidth(way.start)))
     }
     FontMetrics {
         id: letters

@@ -101,10 +101,12 @@ FocusScope {
         quiet: true
         horizontalPadding: (ways.halved ? 28 : 44) * Theme.unit
         // Two lines need less air above and below them.
-        verticalPadding: (ways.level && metrics.advanceWidth(words) > ways.spread - 2 * horizontalPadding ? 10 : 26) * Theme.unit
-        FontMetrics {
+        verticalPadding: (ways.level && metrics.advanceWidth > ways.spread - 2 * horizontalPadding ? 10 : 26) * Theme.unit
+        // Unlike a function of FontMetrics, its width is measured again when the letters change.
+        TextMetrics {
             id: metrics
             font: no.font
+            text: no.words
         }
         words: ways.other
         onClicked: ways.turnedDown()

@@ -37,9 +37,10 @@ Row {
 
     spacing: 20 * Theme.unit
 
-    FontMetrics {
-        id: metrics
+    TextMetrics {
+        id: widest
         font: field.font
+        text: number.widest
     }
 
     component Step: AbstractButton {
@@ -111,7 +112,7 @@ Row {
         form: number.form
         minus: number.minus
         // As wide as the longest number; digits of another script may be wider still.
-        settled: Math.max(Math.max(260, 228 * Theme.textSize) * Theme.unit, Math.max(metrics.advanceWidth(number.widest), contentWidth) + leftPadding + rightPadding + 8 * Theme.unit)
+        settled: Math.max(Math.max(260, 228 * Theme.textSize) * Theme.unit, Math.max(widest.advanceWidth, contentWidth) + leftPadding + rightPadding + 8 * Theme.unit)
         width: settled + (number.bare ? 2 * (height + number.spacing) : 0)
         height: 1.37 * Theme.body + 32 * Theme.unit
         topPadding: 2 * Theme.unit

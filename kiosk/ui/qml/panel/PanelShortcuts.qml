@@ -10,7 +10,11 @@ PanelSection {
     required property var shown
 
     // All keys are as wide as the widest, so that the words stand below each other.
-    readonly property real named: Math.ceil(Math.max(0, ...shown.rows.map(row => letters.advanceWidth(row.keys)))) + 2 * Theme.unit
+    readonly property real named: widest(shown.rows, letters.font)
+    // What is measured depends on the font, which is named for that reason alone.
+    function widest(rows: var, _font: font): real {
+        return Math.ceil(Math.max(0, ...rows.map(row => letters.advanceWidth(row.keys)))) + 2 * Theme.unit
+    }
     FontMetrics {
         id: letters
         font { pixelSize: shortcuts.size; bold: true }
