@@ -209,7 +209,7 @@ PageFrame {
     quiet: form.skips || !form.complete
     way.waits: !form.skips && !form.complete
     way.reason: form.waiting
-    way.opacity: setBack
+    way.opacity: keyboard.grand ? 1 : setBack
     label: words[form.skips ? "form-skip" : "form-next"]
     beside: progress
     besides: form.progress !== ""
@@ -278,18 +278,18 @@ PageFrame {
     // Where the keys of a number stand. On an upright page: below the card of their field, or above it, over other cards.
     // On a wide one: in the helper's place, in the margin, or below everything; they cover no answer unless there is no
     // such place.
+    readonly property real padOver: keyboard.card === null ? 0 : begin + home.y + keyboard.card.mapToItem(home, 0, 0).y - keyboard.away
+    readonly property real padUnder: padOver + (keyboard.card?.height ?? 0) + 2 * keyboard.away
     function padPlace(wide: real, tall: real): point {
         if (upright) {
-            const top = keyboard.card === null ? 0 : begin + home.y + keyboard.card.mapToItem(home, 0, 0).y, room = keyboard.away
-            const under = top + (keyboard.card?.height ?? 0) + room
             const edge = (width - column) / 2, across = Math.max(edge, Math.min(width - edge - wide, keyboard.aim.x - wide / 2))
-            return Qt.point(across, under + tall <= height ? under : Math.max(0, top - room - tall))
+            return Qt.point(across, padUnder + tall <= height ? padUnder : Math.max(0, padOver - tall))
         }
         const after = Window.width - before - width
         const beside = keyboard.field === null ? 0
             : Math.max(0, Math.min(height - tall, foot - tall - Theme.gap, begin + home.y + keyboard.field.mapToItem(home, 0, keyboard.field.height / 2).y - tall / 2))
         if (Math.max(before, after) >= wide)
-            return Qt.point(after >= wide ? width + (after - (accompanied ? Theme.gap : 0) - wide) / 2 : -(before + wide) / 2, Math.max(4.4 * Theme.gap, Math.min(begin + home.y, 4.9 * Theme.gap)))
+            return Qt.point(after >= wide ? width + (after - (accompanied ? Theme.gap : 0) - wide) / 2 : -(before + wide) / 2, Math.max(4.4 * Theme.gap, Math.min(begin + home.y, 7 * Theme.gap)))
         if ((width - column) / 2 >= wide)
             return Qt.point(width - wide - ((width - column) / 2 - wide) / 2, beside)
         if (Window.height - height >= tall)
@@ -445,6 +445,8 @@ PageFrame {
         spare: view.upright ? view.column
              : view.accompanied ? Window.width - view.before - view.width - Theme.gap : 0
         away: view.upright ? Math.min(36 * Theme.unit, pane.spacing) : x < 0 ? (view.width - view.column) / 2 - x - width : x - (view.width + view.column) / 2
+        open: Math.max(view.foot - Theme.gap - view.padUnder, view.padOver - view.begin)
+        covers: view.begin + home.y + home.height - view.padUnder
         near: (card as FormItem)?.inline ?? false
         // The end of an empty field, where it is once something is typed. Its place in its row is named: it changes then.
         aim: {

@@ -20,6 +20,10 @@ Rectangle {
     // How much width they have beside a wide page or over an upright one, and how far from the cards they are.
     property real spare: 0
     property real away: 0
+    // How much height they have over an upright page, above or below their card.
+    property real open: 0
+    // How much of it the cards that they cover take.
+    property real covers: 0
     // Where in the page the middle of the field is, and whether nothing stands between the field and the keys.
     property point aim
     property bool near: false
@@ -32,32 +36,48 @@ Rectangle {
     property bool capitals: false
     property string shown: "letters"
     readonly property bool numbers: field !== null && field.digits
-    // Whether a number's keys stand in two rows, across an upright screen's width.
-    readonly property bool flat: numbers && broad && !field?.minus
-    readonly property var rows: flat ? ["12345", "67890"] : numbers ? ["123", "456", "789", `${field?.minus ? "-" : ""}0⌫`] : form.keys[shown]
+    // Whether a number's keys stand in rows of three across an upright screen's width, or in two rows where height lacks.
+    readonly property bool grand: numbers && broad && open >= (field?.minus ? 652 : 544) * Theme.unit
+    readonly property bool flat: numbers && broad && !grand && !field?.minus
+    readonly property bool wideKeys: grand || numbers && roomy
+    // Whether the word that ends typing has room beside the 0, as on a telephone's keys.
+    readonly property bool ends: wideKeys && !field?.minus && ending.width + 28 * Theme.unit <= keyWidth
+    readonly property var rows: flat ? ["12345", "67890"] : numbers ? ["123", "456", "789", ends ? "⌫0✓" : `${field?.minus ? "-" : ""}0⌫`] : form.keys[shown]
     readonly property int longest: Math.max(10, ...rows.map(row => row.length))
-    readonly property real gap: (flat || numbers && roomy ? 12 : 8) * Theme.unit
+    readonly property real gap: (grand ? 20 : wideKeys ? 16 : flat ? 12 : 8) * Theme.unit
+    // How far the keys are from the edge that is drawn around a number's.
+    readonly property real margin: wideKeys ? gap + border.width : flat ? 16 * Theme.unit : 0.6 * Theme.gap
     readonly property real room: parent.width
     // Whether a number's keys have an upright page's width.
     readonly property bool broad: parent.width < parent.height
     // Or a wide screen's margin beside it.
     readonly property bool roomy: Window.width - parent.width >= 440 * Theme.unit
     readonly property real keyWidth: numbers ? flat ? fitting(spare - 190 * Theme.unit - gap, 5, 90, 160)
-        : broad ? 150 * Theme.unit : roomy ? fitting(spare, 3, 108, 160) : 80 * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
-    readonly property real keyHeight: (numbers ? (flat ? 140 : roomy ? 72 : 68) : 60) * Theme.unit
+        : grand ? fitting(spare, 3, 108, 420) : broad ? 150 * Theme.unit : roomy ? fitting(spare, 3, 108, 160) : 80 * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
+    readonly property real keyHeight: grand ? Math.min(270 * Theme.unit, Math.floor((tall - 2 * margin + gap) / (ends ? 4 : 5) - gap))
+        : (numbers ? (flat ? 140 : roomy ? (ends ? 80 : 68) : 68) : 60) * Theme.unit
+    // How high large keys are with their edge: they end where the cards do, and cut none of these.
+    readonly property real tall: Math.min(open, Math.max(covers, 684 * Theme.unit))
+    // How large the words of a number's keys are.
+    readonly property real wording: grand ? Theme.size(48) : flat ? Theme.size(42) : Theme.body
+    TextMetrics {
+        id: ending
+        font { pixelSize: keyboard.wording; bold: true }
+        text: keyboard.words["keyboard-done"]
+    }
 
     // Whether they point at their field, at one side of it.
     readonly property bool points: numbers && (broad ? aim.x > x + radius + 36 * Theme.unit && aim.x < x + width - radius - 36 * Theme.unit
-        : (x >= parent.width || x < 0) && aim.y > y + radius + 28 * Theme.unit && aim.y < y + height - radius - 28 * Theme.unit)
+        : (x >= parent.width || x < 0) && aim.y > y + radius + 24 * Theme.unit && aim.y < y + height - radius - 24 * Theme.unit)
 
     // How wide so many keys in a row are in this room, within these units.
     function fitting(wide: real, many: int, least: real, most: real): real {
-        const each = (wide - 1.2 * Theme.gap - (many - 1) * gap) / many
+        const each = (wide - 2 * margin - (many - 1) * gap) / many
         return Math.floor(Math.max(least * Theme.unit, Math.min(most * Theme.unit, each)))
     }
 
-    width: numbers ? keys.width + 1.2 * Theme.gap : parent.width
-    height: keys.height + 1.2 * Theme.gap
+    width: grand ? Math.max(spare, keys.width + 2 * margin) : numbers ? keys.width + 2 * margin : parent.width
+    height: grand && keyHeight < 270 * Theme.unit ? tall : keys.height + 2 * margin
     x: numbers ? place.x : 0
     y: numbers ? place.y : parent.height - height
     radius: numbers ? Theme.radius : 0
@@ -93,19 +113,19 @@ Rectangle {
             text: key.drawn ? "" : key.words
             // Digits are looked for, and larger than words.
             readonly property bool digit: keyboard.numbers && !key.pressedIn
-            font { pixelSize: Math.min(digit ? Theme.size(keyboard.flat ? 60 : 42) : keyboard.flat ? Theme.size(42) : Theme.body, 0.56 * keyboard.keyHeight); bold: key.pressedIn || digit }
+            font { pixelSize: Math.min(digit ? Theme.size(keyboard.grand ? 76 : keyboard.flat ? 60 : 42) : keyboard.wording, 0.56 * keyboard.keyHeight); bold: key.pressedIn || digit }
             color: key.pressedIn ? Theme.white : Theme.ink
             horizontalAlignment: Text.AlignHCenter
             verticalAlignment: Text.AlignVCenter
         }
         background: Rectangle {
-            radius: keyboard.flat ? 16 * Theme.unit : keyboard.numbers ? height / 2 : 10 * Theme.unit
+            radius: (keyboard.numbers ? 16 : 10) * Theme.unit
             color: key.pressedIn ? Theme.sea : keyboard.numbers ? Theme.touchable : Theme.white
             border { color: key.hovered || keyboard.numbers ? Theme.sea : Theme.edge; width: (key.hovered && keyboard.numbers ? 4 : 2) * Theme.unit }
             Backspace {
                 visible: key.drawn
                 anchors.centerIn: parent
-                scale: (keyboard.flat ? 3 : keyboard.numbers ? 2.1 : 1.5) * Theme.unit
+                scale: (keyboard.grand ? 3.8 : keyboard.flat ? 3 : keyboard.numbers ? 2.1 : 1.5) * Theme.unit
             }
         }
     }
@@ -131,7 +151,7 @@ Rectangle {
             : (after ? keyboard.aim.y - keyboard.y - keyboard.height : keyboard.y - keyboard.aim.y) - keyboard.field.height / 2
         width: reach > 0 ? reach : keyboard.broad ? Math.min(32 * Theme.unit, keyboard.away - 4 * Theme.unit)
             : Math.max(30 * Theme.unit, Math.min(96 * Theme.unit, keyboard.away))
-        height: keyboard.broad && reach <= 0 ? 2 * width : 56 * Theme.unit
+        height: keyboard.broad ? reach <= 0 ? 2 * width : 56 * Theme.unit : 48 * Theme.unit
         x: keyboard.broad ? keyboard.aim.x - keyboard.x - width / 2 : after ? keyboard.width : -width
         y: keyboard.broad ? (after ? keyboard.height + width / 2 : -width / 2) - height / 2 : keyboard.aim.y - keyboard.y - height / 2
         rotation: (keyboard.broad ? 90 : 0) + (after ? 180 : 0)
@@ -149,7 +169,7 @@ Rectangle {
     Grid {
         id: keys
         x: (keyboard.width - width) / 2
-        y: 0.6 * Theme.gap
+        y: (keyboard.height - height) / 2
         columns: keyboard.flat ? 2 : 1
         spacing: keyboard.gap
         horizontalItemAlignment: Grid.AlignHCenter
@@ -167,15 +187,20 @@ Rectangle {
                         ScreenKey {
                             required property string modelData
                             readonly property bool wipes: modelData === "⌫"
-                            objectName: wipes ? "key-delete" : "key-" + modelData
+                            readonly property bool ends: modelData === "✓"
+                            objectName: wipes ? "key-delete" : ends ? "key-done" : "key-" + modelData
+                            pressedIn: ends
                             // Twice as wide where no minus stands before it: no place is empty.
-                            width: keyboard.numbers && !keyboard.flat && modelData === "0" && !keyboard.field?.minus
+                            width: keyboard.numbers && !keyboard.flat && !keyboard.ends && modelData === "0" && !keyboard.field?.minus
                                 ? 2 * keyboard.keyWidth + keyboard.gap : usualWidth
                             drawn: wipes
-                            words: wipes ? keyboard.words["keyboard-delete"] : keyboard.capitals ? keyboard.form.capital(modelData) : keyboard.numbers && modelData === "-" ? "−" : modelData
+                            words: wipes ? keyboard.words["keyboard-delete"] : ends ? keyboard.words["keyboard-done"] : keyboard.capitals ? keyboard.form.capital(modelData) : keyboard.numbers && modelData === "-" ? "−" : modelData
                             onClicked: {
-                                if (wipes) {
-                                    keyboard.field.wipe()
+                                if (wipes || ends) {
+                                    if (wipes)
+                                        keyboard.field.wipe()
+                                    else
+                                        keyboard.done()
                                     return
                                 }
                                 keyboard.field.type(keyboard.numbers ? modelData : words)
@@ -188,7 +213,8 @@ Rectangle {
         }
         Flow {
             id: others
-            readonly property real wish: keyboard.flat ? Math.max(190 * Theme.unit, Math.floor(keyboard.spare - 1.2 * Theme.gap - 5 * (keyboard.keyWidth + keyboard.gap))) : keyboard.numbers ? 3 * keyboard.keyWidth + 2 * keyboard.gap : keyboard.room - 2 * Theme.gap
+            visible: !keyboard.ends
+            readonly property real wish: keyboard.flat ? Math.max(190 * Theme.unit, Math.floor(keyboard.spare - 2 * keyboard.margin - 5 * (keyboard.keyWidth + keyboard.gap))) : keyboard.numbers ? 3 * keyboard.keyWidth + 2 * keyboard.gap : keyboard.room - 2 * Theme.gap
             width: keyboard.numbers ? wish : Math.min(wish, implicitRow)
             readonly property real implicitRow: {
                 let sum = -spacing

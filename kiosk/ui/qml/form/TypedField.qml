@@ -106,7 +106,8 @@ TextField {
             leftMargin: margin + (Theme.mirrored ? 0 : before)
             rightMargin: margin + (Theme.mirrored ? before : 0)
         }
-        visible: field.length === 0 && field.preeditText === ""
+        // A number's stands in the middle, where the cursor would cross it.
+        visible: field.length === 0 && field.preeditText === "" && !(field.digits && field.activeFocus)
         textFormat: Text.PlainText
         text: field.hint
         horizontalAlignment: field.digits ? Text.AlignHCenter : undefined
@@ -120,7 +121,7 @@ TextField {
     background: Rectangle {
         radius: Theme.radius
         // Of the colour of the keys on the screen that type into it. A number's is like a button while it is empty.
-        color: field.digits ? (prompt.visible && !field.activeFocus ? Theme.touchable : Theme.white)
+        color: field.digits ? (prompt.visible ? Theme.touchable : Theme.white)
             : field.activeFocus && !Theme.byKeyboard ? Theme.sand : Theme.white
         border { color: Theme.sea; width: (field.activeFocus ? 6 : field.digits ? 4 : 3) * Theme.unit }
         // Inside of a number, which has buttons beside it.
