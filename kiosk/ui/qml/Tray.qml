@@ -59,27 +59,30 @@ Item {
             // How far the two cards of a pair lie from its middle, where they lie side by side.
             readonly property real aside: Math.max(0.05 * tray.slot, Math.min(0.5 * tray.card + 0.03 * tray.slot, (width - tray.card) / 2 - 0.09 * tray.slot))
 
+            // Where the two cards of a pair lie side by side, their place is one shape from the start. Two shapes in each
+            // would make the shelf look like a second board.
             Rectangle {
-                visible: place.filled
+                visible: place.filled || tray.paired
                 anchors { fill: parent; margins: parent.height * 0.07 }
                 radius: height * 0.18
-                color: Theme.leaf
+                color: place.filled ? Theme.leaf : Theme.trough
+                border { color: Theme.slot; width: !place.filled && Theme.highContrast ? Math.max(1, Theme.unit) : 0 }
             }
-            // Until then the shapes of the two cards: where they will lie, or so far apart that both are seen.
+            // Elsewhere the shapes of the two cards, so far apart that both are seen.
             Repeater {
-                model: place.filled ? 0 : 2
+                model: place.filled || tray.paired ? 0 : 2
                 Rectangle {
                     required property int index
                     anchors {
                         centerIn: parent
-                        horizontalCenterOffset: (index === 0 ? -1 : 1) * (tray.paired ? place.aside : 2.4 * tray.behind)
-                        verticalCenterOffset: tray.paired ? 0 : (index === 0 ? -1 : 1) * 2.4 * tray.behind
+                        horizontalCenterOffset: (index === 0 ? -1 : 1) * 2.4 * tray.behind
+                        verticalCenterOffset: (index === 0 ? -1 : 1) * 2.4 * tray.behind
                     }
-                    width: (tray.paired ? 0.96 : 0.82) * tray.card
+                    width: 0.82 * tray.card
                     height: width
                     radius: 0.11 * tray.card
                     color: Theme.hollow
-                    border { color: Theme.highContrast ? Theme.slot : Theme.shelf; width: Math.max(1, (tray.paired || Theme.highContrast ? 1 : 2) * Theme.unit) }
+                    border { color: Theme.highContrast ? Theme.slot : Theme.shelf; width: Math.max(1, (Theme.highContrast ? 1 : 2) * Theme.unit) }
                 }
             }
             // Two cards side by side; or one on the other, of which only the edge is seen.
