@@ -97,6 +97,7 @@ game-moves =
 game-begin = It is your turn. Turn over any card.
 game-second = Now a second card
 practice-second = Now turn over a second card.
+practice-no-pair = Not a pair.
 practice-turning-back = One moment, the cards turn back.
 practice-pair = A pair!
 game-found = All found!

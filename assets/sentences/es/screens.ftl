@@ -98,6 +98,7 @@ game-moves =
 game-begin = Te toca. Da la vuelta a cualquier carta.
 game-second = Ahora una segunda carta
 practice-second = Ahora da la vuelta a una segunda carta.
+practice-no-pair = No es una pareja.
 practice-turning-back = Un momento, las cartas se vuelven a tapar.
 practice-pair = ¡Una pareja!
 game-found = ¡Todas encontradas!

@@ -102,6 +102,7 @@ game-moves =
 game-begin = Tocca a te. Scopri una carta qualsiasi.
 game-second = Ora una seconda carta
 practice-second = Ora scopri una seconda carta.
+practice-no-pair = Non è una coppia.
 practice-turning-back = Un momento, le carte si coprono di nuovo.
 practice-pair = Una coppia!
 game-found = Trovate tutte!

@@ -91,7 +91,9 @@ FocusScope {
     readonly property real wordsHigh: upright ? wordsLine - 12 * Theme.unit - wordsApart : tray.height
     // The way to the game stands above the cards, with the tray; or below them, where large words leave no room there.
     readonly property real above: practice.width + (broad ? progress.implicitWidth : progress.width) + skip.implicitWidth + (upright ? 0 : 240 * Theme.unit) + 5 * Theme.gap
-    readonly property bool skipsBelow: !broad && above > width
+    readonly property bool skipsBelow: !broad && above > mostRight + Theme.gap
+    // Where the dots begin that show how far the visit is, or the screen ends.
+    readonly property real mostRight: width - (upright ? 1 : 3.5) * Theme.gap
     // Beside the numbers there is room for a mark's arrow.
     readonly property real numbers: (upright ? 66 : 78) * Theme.unit
     // On an upright screen the cards and the numbers of their rows are together as wide as the helper's sentence, and
@@ -238,7 +240,7 @@ FocusScope {
         width: view.broad ? view.side - Theme.gap : view.upright ? view.headRight - view.headLeft : Math.max(0, end - x)
         // It ends a little before the cards, clear of what shows how far the visit is; or as far from the way to the
         // game as it begins from the words.
-        readonly property real end: !view.practises ? view.cardsEnd - 2 * Theme.gap : (view.skipsBelow ? view.width : skip.x) - Theme.gap
+        readonly property real end: !view.practises ? view.cardsEnd - 2.5 * Theme.gap : (view.skipsBelow ? view.width : skip.x) - Theme.gap
         height: view.broad ? table.height : view.upright ? view.lines * (view.doubles ? view.doubleSlot : view.shelfSlot) : view.strip - 8 * Theme.unit
         places: view.pairs
         spreads: view.upright
@@ -301,7 +303,7 @@ FocusScope {
         x: view.broad ? Theme.gap : view.skipsBelow ? cards.x + (cards.width - width) / 2
          : practice.heads ? view.headRight - width
          : view.above <= table.x + table.width ? view.cardsEnd - width
-         : view.width - width - Theme.gap
+         : view.mostRight - width
         y: view.broad ? table.y + table.height - height
          : view.skipsBelow ? view.height - height - Theme.gap : view.wordsAt + (view.wordsHigh - height) / 2
         visible: view.practises

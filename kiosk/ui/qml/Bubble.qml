@@ -12,14 +12,18 @@ Item {
     property bool calls: false          // whether it is to be read from far away
     property bool grows: false          // whether it has room for large words
     property bool cheers: false         // whether the sentence is a cheer: large, bold and in the middle
+    property string outcome: ""         // what stands above one sentence, as large as a cheer
+    property string outcomeOf: ""       // which sentence that is
     property string speaker: ""         // whose words they are; empty where no speaker has a name
 
     // Between the bubble and the face; without a face only the edge of the window has to be kept clear of.
     readonly property real tail: (hasSpeaker ? 34 : 12) * Theme.unit
+    readonly property bool tells: outcome !== "" && words.text === outcomeOf
+    readonly property real cheer: Theme.size(grows ? 64 : 52)
     readonly property real tag: speaker === "" ? 0 : name.height - 0.3 * Theme.gap
     // How much of its height is free above it.
     readonly property real free: sentence === "" ? height : box.y
-    readonly property real room: height - tail - tag - (hasSpeaker ? 3 : 2) * Theme.gap
+    readonly property real room: height - tail - tag - told.high - (hasSpeaker && !tells ? 3 : 2) * Theme.gap
 
     LayoutMirroring.enabled: Theme.mirrored
     LayoutMirroring.childrenInherit: true
@@ -45,7 +49,7 @@ Item {
         width: words.width
         textFormat: Text.PlainText
         text: words.text
-        font.pixelSize: Theme.size(bubble.cheered ? (bubble.grows ? 64 : 52) : bubble.calls ? 50 : bubble.grows ? (large.lineCount <= 2 ? 38 : 34) : 36)
+        font.pixelSize: bubble.cheered ? bubble.cheer : Theme.size(bubble.calls ? 50 : bubble.grows ? (large.lineCount <= 2 ? 38 : 34) : 36)
         font.bold: bubble.cheered
         lineHeight: words.lineHeight
         wrapMode: Text.Wrap
@@ -63,15 +67,27 @@ Item {
     Rectangle {
         id: box
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom; bottomMargin: bubble.tail }
-        height: words.height + bubble.tag + 2 * Theme.gap
+        height: words.height + bubble.tag + told.high + 2 * Theme.gap
         radius: Theme.radius
         color: Theme.white
         border.color: Theme.sea
         border.width: 4 * Theme.unit
 
+        PlainText {
+            id: told
+            readonly property real high: visible ? height : 0
+            visible: bubble.tells
+            anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap; topMargin: Theme.gap + bubble.tag }
+            text: visible ? bubble.outcome : ""
+            font { pixelSize: bubble.cheer; bold: true }
+            color: Theme.sea
+            horizontalAlignment: Text.AlignHCenter
+            wrapMode: Text.Wrap
+            Accessible.role: Accessible.AlertMessage
+        }
         Balanced {
             id: words
-            anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap; topMargin: Theme.gap + bubble.tag }
+            anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap; topMargin: Theme.gap + bubble.tag + told.high }
             // What would not fit above the face is set smaller: half the size takes a quarter of the room.
             font.pixelSize: {
                 const share = Math.max(0, bubble.room / Math.max(1, usual.height))
@@ -79,7 +95,7 @@ Item {
             }
             font.bold: bubble.cheered
             color: bubble.cheered ? Theme.sea : Theme.ink
-            horizontalAlignment: bubble.cheered ? Text.AlignHCenter : LayoutMirroring.enabled ? Text.AlignLeft : undefined
+            horizontalAlignment: bubble.cheered || bubble.tells ? Text.AlignHCenter : LayoutMirroring.enabled ? Text.AlignLeft : undefined
             lineHeight: 1.12
             Accessible.role: Accessible.AlertMessage
         }

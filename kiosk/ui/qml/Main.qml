@@ -391,6 +391,8 @@ Window {
         readonly property bool tells: (second || missed) && aside !== "" && !says
         readonly property string turn: second ? root.words["practice-second"] : missed ? root.words["practice-turning-back"] : glad ? root.words["practice-pair"] : done ? root.words["game-found"]
             : boardPage.visible && root.board.untouched && root.board.open ? root.words["game-begin"] : ""
+        outcome: root.words["practice-no-pair"]
+        outcomeOf: root.words["practice-turning-back"]
         cheers: aside !== "" && aside === turn && (glad || done) && !second && !missed
         aside: !root.avatar.present || root.whole || root.kiosk.asks !== "" || root.kiosk.asksStillThere ? "" : !root.wide ? turn : attractView.visible ? root.attract.line
              : formPage.visible ? (root.avatar.away || formPage.keysBeside ? "" : root.words["form-calm"])
@@ -425,8 +427,8 @@ Window {
         visible: corner.visible && root.kiosk.step >= 0 && !(formPage.visible && formPage.lined)
         opacity: corner.opacity
         readonly property bool aside: root.wide && !root.whole
-        // Beside the place of the button that comes and goes, so that they stay where they are.
-        x: !aside ? Theme.gap : corner.atLeft ? 2 * Theme.gap + corner.fullWidth : corner.x + corner.width - corner.fullWidth - Theme.gap - width
+        // Beside the place of the button that comes and goes, so that they stay where they are, and clear of it.
+        x: !aside ? Theme.gap : corner.atLeft ? 3 * Theme.gap + corner.fullWidth : corner.x + corner.width - corner.fullWidth - 2 * Theme.gap - width
         y: aside ? corner.y + (corner.step - corner.spacing - height) / 2 : root.room - height - Theme.gap
     }
     Feast {

@@ -25,6 +25,9 @@ Item {
     property bool leads: false
     // Whether that is a cheer.
     property bool cheers: false
+    // What came of a move, to be read above one of these sentences.
+    property string outcome: ""
+    property string outcomeOf: ""
     // Whether a card above it says everything, instead of its bubble.
     property bool hushed: false
     // Where its ears begin, in this item.
@@ -112,6 +115,8 @@ Item {
         speaker: panel.avatar.name
         calls: panel.calls
         grows: panel.grows
+        outcome: panel.outcome
+        outcomeOf: panel.outcomeOf
         cheers: panel.cheers && sentence === panel.aside
     }
     Avatar {

@@ -42,6 +42,7 @@ FIXED = (
     "game-second",
     "practice-second",
     "practice-turning-back",
+    "practice-no-pair",
     "practice-pair",
     "game-found",
     "result-title",

@@ -97,6 +97,7 @@ game-moves =
 game-begin = Du bist dran. Dreh irgendeine Karte um.
 game-second = Jetzt eine zweite Karte
 practice-second = Dreh jetzt eine zweite Karte um.
+practice-no-pair = Kein Paar.
 practice-turning-back = Einen Moment, die Karten drehen sich um.
 practice-pair = Ein Paar!
 game-found = Alle gefunden!
