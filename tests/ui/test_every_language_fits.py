@@ -66,6 +66,8 @@ LAYOUTS = (
     Layout(1920, 1080, robot=True),
     Layout(1080, 1920, robot=True),
 )
+SAME_SHAPE = LAYOUTS[3]
+"""A window of the same shape as the first, which shows the middle size of texts in place of the largest."""
 SHIPPED = ("en", "es", "it")
 HALF_A_PIXEL = 0.5
 """Sizes are rounded when texts are measured."""
@@ -344,12 +346,18 @@ def pages() -> Iterator[tuple[str, tuple[Item, ...], dict[str, str] | None]]:
         yield name, ASKED[of].items[among], ASKED[of].title
 
 
+def is_broken(text: QQuickItem) -> bool:
+    """Whether a text of one word has more than one line."""
+    return text.property("lineCount") > 1 and " " not in text.property("text")
+
+
 def scrolls(window: Window, layout: Layout, moment: str, language: str, size: TextSize) -> bool:
     """Look at the page that is shown in this size; returns whether it scrolls."""
     shown, told = window.shown, f"{moment}, {language}, {size.value}"
     window.screens.kiosk.set_text_size(size)
     lay_out(shown)
     assert_all_can_be_read(shown, told)
+    assert [text.property("text") for text in texts(shown.contentItem()) if is_broken(text)] == [], told
     if size is TextSize.NORMAL and (layout.width, layout.height) == (1920, 1080):
         assert_large_enough(shown, told)
     more = find_item(shown.contentItem(), "more")
@@ -363,19 +371,18 @@ def scrolls(window: Window, layout: Layout, moment: str, language: str, size: Te
 
 
 @pytest.mark.parametrize("layout", LAYOUTS, ids=str)
-def test_every_screen_fits_in_every_language_layout_and_text_size(
+def test_every_screen_fits_in_every_language_layout_and_text_size_and_breaks_no_word_that_fits(
     kiosk: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
     window, study = kiosk
     screens = window.screens
-    ends = [TextSize.NORMAL, TextSize.LARGEST]
+    sizes = [TextSize.NORMAL, TextSize.LARGE if layout == SAME_SHAPE else TextSize.LARGEST]
     screens.avatar.appear(present=not layout.robot)
     resize(window, layout.width, layout.height)
-    every = [list(moments(screens, replace(study, plans=(plan,)))) for plan in study.plans]
-
+    plans = [(plan, list(moments(screens, replace(study, plans=(plan,))))) for plan in study.plans]
     # A page is made once, for all languages and sizes.
-    for screen in dict.fromkeys(screen for _, screen, _ in every[0]):
-        for number, (plan, there) in enumerate(zip(study.plans, every, strict=True)):
+    for screen in dict.fromkeys(screen for _, screen, _ in plans[0][1]):
+        for plan, there in plans:
             screens.set_language(plan.catalogue)
             screens.kiosk.begin(SHIPPED, plan.language, plan.settings.consent)
             screens.kiosk.offer_back(offered=True)
@@ -388,15 +395,25 @@ def test_every_screen_fits_in_every_language_layout_and_text_size(
                 screens.avatar.leave(away=moment in RATED)
                 show_alone(window, screen)
                 screens.avatar.say(said(screen, plan))
-                found = {scrolls(window, layout, moment, plan.language, size) for size in ends}
-                # A page that scrolls in both sizes or in neither is the same between them. One language of each layout
-                # shows it all the same.
-                if len(found) > 1 or (number + LAYOUTS.index(layout)) % len(SHIPPED) == 0:
+                found = {scrolls(window, layout, moment, plan.language, size) for size in sizes}
+                if looks_between(layout, plan.language, differ=len(found) > 1):
                     scrolls(window, layout, moment, plan.language, TextSize.LARGE)
-                # The next page begins with the size that this one ends with.
-                ends.reverse()
+                # The next page begins with the size that this one ends with, and the next screen with its language.
+                sizes.reverse()
+        plans.reverse()
     screens.avatar.leave(away=False)
     let_go(window.shown)
+
+
+def looks_between(layout: Layout, language: str, *, differ: bool) -> bool:
+    """Whether the middle size is looked at as well: ``differ`` if a page scrolls in one of the other sizes only.
+
+    A page that scrolls in both or in neither is the same between them. One language of each layout shows it all the
+    same; of the widest windows, the smaller one does.
+    """
+    return layout not in (LAYOUTS[0], SAME_SHAPE) and (
+        differ or (SHIPPED.index(language) + LAYOUTS.index(layout)) % len(SHIPPED) == 0
+    )
 
 
 def show_alone(window: Window, screen: str) -> None:

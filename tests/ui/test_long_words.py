@@ -10,7 +10,6 @@ import pytest
 from fluent.syntax import FluentParser, FluentSerializer, ast
 from fluent.syntax.visitor import Transformer
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtQuick import QQuickItem
 
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import ASSETS, Settings
@@ -21,7 +20,7 @@ from kiosk.ui.simulated_visitor import lay_out
 from kiosk.ui.window import Window
 from tests.ui.headless import open_window
 from tests.ui.settling import pages
-from tests.ui.test_every_language_fits import SIZES, assert_all_can_be_read, moments, resize, show_alone, texts
+from tests.ui.test_every_language_fits import SIZES, assert_all_can_be_read, moments, resize, show_alone
 
 PAGES = [page for page in pages() if page.name.endswith("no place to break") and page.name[0] in "a135"]
 
@@ -96,27 +95,3 @@ def test_a_language_without_spaces_is_readable_on_every_screen(
         show_alone(window, screen)
         lay_out(window.shown)
         assert_all_can_be_read(window.shown, moment)
-
-
-@pytest.fixture(scope="module", params=["en", "es", "it"])
-def shipped(request: pytest.FixtureRequest, qapp: QGuiApplication) -> Iterator[Window]:  # noqa: ARG001 - Qt is to be there before
-    """Provide the window of a study in one of the shipped languages."""
-    with open_window(read_study(Settings.model_validate({"languages": [request.param]}))) as opened:
-        yield opened
-
-
-@pytest.mark.parametrize(("width", "height"), SIZES)
-def test_a_word_that_fits_is_not_broken(shipped: Window, width: int, height: int) -> None:
-    resize(shipped, width, height)
-    for screen in ("attract", "about", "consent", "age", "form", "introduction", "result", "debrief", "thanks"):
-        show_alone(shipped, screen)
-        for text_size in (0.9, 1.0, 1.1, 1.2, 1.3):
-            shipped.shown.setProperty("textSize", text_size)
-            lay_out(shipped.shown)
-            broken = [text.property("text") for text in texts(shipped.shown.contentItem()) if is_broken(text)]
-            assert broken == [], (screen, text_size)
-
-
-def is_broken(text: QQuickItem) -> bool:
-    """Whether a text of one word has more than one line."""
-    return text.property("lineCount") > 1 and " " not in text.property("text")
