@@ -63,7 +63,10 @@ Item {
     readonly property int rows: choices?.rows ?? 0
     readonly property ChoiceList choices: way.item as ChoiceList
     // How high it is without all that, and how much can be added to the distances.
-    readonly property real plain: head + (inline ? Math.max(told.height, way.height) : told.height + (way.active ? usualSpacing + (choices?.least ?? way.height) : 0)) + 2 * usualMargin
+    readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asks + (way.active ? usualSpacing + (choices?.least ?? way.height) : 0)) + 2 * usualMargin
+    // How high the place of its question is: on such a page at least as high as two lines, in the middle of which a short
+    // one stands. So cards and scales stand at the same places on all pages.
+    readonly property real asks: Math.max(told.height, ample ? 2 * Math.ceil(lineOf.height) : 0)
     readonly property real addable: alone || beside ? 0 : (ample ? 48 : 32) * Theme.unit
     readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : ample ? Theme.textSize > 1 ? 16 : 32 : easy ? 18 : airy ? 22 : paired > 0 ? 12 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
@@ -124,6 +127,10 @@ Item {
         border { color: box.missed ? Theme.deepAmber : Theme.edge; width: box.alone ? 0 : (box.missed ? 5 : 3) * Theme.unit }
     }
 
+    FontMetrics {
+        id: lineOf
+        font: question.font
+    }
     Column {
         id: content
         anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; verticalCenterOffset: box.head / 2 - box.raised; margins: box.alone ? 0 : 1.2 * Theme.gap }
@@ -140,11 +147,11 @@ Item {
             readonly property real axis: box.flank ? middle : box.own ? Math.max((height - way.height + scaled) / 2 + 0.3 * box.rowMargin, told.height / 2 - 8 * Theme.unit) : middle
             // Rows of one line and of two are as high; with words for its ends it is as high as a scale and a line of words.
             readonly property real middle: Math.max(box.own ? box.rowHeight : scaled, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
-            height: box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : told.height + (way.active ? content.spacing + way.height : 0)
+            height: box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : box.asks + (way.active ? content.spacing + way.height : 0)
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.ample ? content.spacing / 8 : 0
+                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.ample ? content.spacing / 8 + (box.asks - height) / 2 : 0
                 width: box.beside ? box.textWidth : box.inline ? asked.width - 470 * Theme.unit : asked.width
                 spacing: box.inline ? 0 : box.ample ? 4 * Theme.unit : content.spacing
                 Balanced {
@@ -195,7 +202,7 @@ Item {
                 id: way
                 readonly property real room: box.beside ? box.scaleWidth : asked.width
                 x: Theme.across(box.beside ? asked.width - room : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.flank ? asked.middle - height / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.height + content.spacing
+                y: box.flank ? asked.middle - height / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : box.asks + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
@@ -280,6 +287,7 @@ Item {
             dense: box.dense
             tight: box.tight
             large: box.large
+            even: box.ample
             onChosen: point => box.form.rate(box.item.id, point)
         }
     }

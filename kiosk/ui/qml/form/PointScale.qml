@@ -27,6 +27,8 @@ Item {
     property var flank: null
     // How far above the points they stand then.
     property real lift: 0
+    // Whether a row of many points is as high as one of few, and so stands at the same places.
+    property bool even: false
     signal chosen(int point)
 
     readonly property bool pictured: pictures.length > 0
@@ -36,6 +38,7 @@ Item {
     readonly property bool many: points > 7 && !pictured
     readonly property bool spread: flank !== null && many
     readonly property real size: spread ? Math.min(80 * Theme.unit, filling) : flank?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
+    readonly property real inset: even && many && below && !alone ? Math.max(0, (wish - size) / 2) : 0
     readonly property real filling: width / (points + 0.24 * (points - 1))
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real most: 250 * Theme.unit * Theme.textSize
@@ -58,14 +61,14 @@ Item {
     readonly property real head: beside && headed && !own ? words + lift : 0
 
     // In a row, what has air below its letters is in the middle by what can be seen of it.
-    height: spread ? row.height + words + under - 8 * Theme.unit : flank ? size : beside && !own ? head + row.height : below ? row.height + words + under : Math.max(row.height, words)
+    height: spread ? row.height + words + under - 8 * Theme.unit : flank ? size : beside && !own ? head + row.height : below ? row.height + words + under + 2 * inset : Math.max(row.height, words)
 
     // Under the first point, or above it; or before it, at the edge where the question begins.
     PlainText {
         id: lowest
         visible: !scale.beside || scale.own || scale.headed
         x: Theme.across(0, width, scale.width)
-        y: scale.beside && !scale.own ? scale.words - height : scale.below ? row.height + scale.under : (scale.height - height) / 2
+        y: scale.beside && !scale.own ? scale.words - height : scale.below ? row.y + row.height + scale.under : (scale.height - height) / 2
         width: scale.below ? scale.half : scale.leftRoom
         text: scale.leftEnd
         horizontalAlignment: scale.flank && !scale.spread ? Text.AlignRight : Text.AlignLeft
@@ -100,7 +103,7 @@ Item {
     Row {
         id: row
         x: Theme.across(scale.below ? 0 : scale.leftRoom + Theme.gap, width, scale.width)
-        y: scale.beside && !scale.flank ? scale.head : scale.below ? 0 : (scale.height - height) / 2
+        y: scale.beside && !scale.flank ? scale.head : scale.below ? 1.3 * scale.inset : (scale.height - height) / 2
         spacing: scale.gap
         Repeater {
             id: buttons
