@@ -40,7 +40,7 @@ _REASONS = {
         0 0 | Let us look somewhere new. / Here is a pair that you have not met yet. / There is a pair that you have not turned up yet.
         0 0 | There is a pair still waiting to be seen for the first time. / Two cards that belong together are still unseen.
         0 1 | You have seen one @ card once, and the other one not yet. / One @ card has been up once; the other is still unseen.
-        0 1 | You have met one @ card once, but not the other. / One of the two @ cards has been up once; the other is still unseen.
+        0 1 | You have seen one @ card once, but never its partner. / One of the two @ cards has been up once; the other is still unseen.
         0 1 | There are two @ cards: you have seen one of them once, and not the other.
         1 1 | You have seen both @ cards, each of them once. / Both @ cards have been up once already.
         1 1 | You have met the two @ cards once each. / Both @ cards have been up, each of them once.

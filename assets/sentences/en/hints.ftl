@@ -19,7 +19,7 @@ reason-first-nothing-known =
 reason-first-one-seen-once =
     .a = You have seen one { $card } card once, and the other one not yet.
     .b = One { $card } card has been up once; the other is still unseen.
-    .c = You have met one { $card } card once, but not the other.
+    .c = You have seen one { $card } card once, but never its partner.
 # Both were turned up once.
 reason-first-both-seen-once =
     .a = You have seen both { $card } cards, each of them once.
