@@ -32,9 +32,7 @@ QtObject {
     readonly property color touchable: highContrast ? white : Qt.hsla(Math.max(0, accent.hslHue), Math.min(0.38, accent.hslSaturation), 0.92, 1)
     // What lies below things that are put down on it.
     readonly property color shelf: highContrast ? "#FFFFFF" : Qt.tint(paper, Qt.alpha(sand, 0.32))
-    // A place on it where a whole pair will lie; one where the shape of a card is shown, and that card's outline.
-    readonly property color trough: highContrast ? "#FFFFFF" : Qt.tint(shelf, Qt.alpha(sand, 0.75))
-    readonly property color hollow: highContrast ? "#FFFFFF" : Qt.darker(sand, 1.08)
+    // The outline of a card on it.
     readonly property color slot: highContrast ? "#000000" : Qt.darker(sand, 1.25)
     readonly property color ink: highContrast ? "#000000" : "#22313F"
     readonly property color faintInk: highContrast ? "#1A2430" : "#4A5A68"

@@ -59,14 +59,14 @@ Item {
             // How far the two cards of a pair lie from its middle, where they lie side by side.
             readonly property real aside: Math.max(0.05 * tray.slot, Math.min(0.5 * tray.card + 0.03 * tray.slot, (width - tray.card) / 2 - 0.09 * tray.slot))
 
-            // Where the two cards of a pair lie side by side, their place is one shape from the start. Two shapes in each
-            // would make the shelf look like a second board.
+            // What is empty is lighter than the shelf. Where the two cards of a pair lie side by side, their place is one
+            // shape: two shapes in each would make the shelf look like a second board.
             Rectangle {
                 visible: place.filled || tray.paired
                 anchors { fill: parent; margins: parent.height * 0.07 }
                 radius: height * 0.18
-                color: place.filled ? Theme.leaf : Theme.trough
-                border { color: Theme.slot; width: !place.filled && Theme.highContrast ? Math.max(1, Theme.unit) : 0 }
+                color: place.filled ? Theme.leaf : Theme.paper
+                border { color: Theme.edge; width: place.filled ? 0 : Math.max(1, 2 * Theme.unit) }
             }
             // Elsewhere the shapes of the two cards, so far apart that both are seen.
             Repeater {
@@ -81,8 +81,8 @@ Item {
                     width: 0.82 * tray.card
                     height: width
                     radius: 0.11 * tray.card
-                    color: Theme.hollow
-                    border { color: Theme.highContrast ? Theme.slot : Theme.shelf; width: Math.max(1, (Theme.highContrast ? 1 : 2) * Theme.unit) }
+                    color: Theme.paper
+                    border { color: Theme.edge; width: Math.max(1, 2 * Theme.unit) }
                 }
             }
             // Two cards side by side; or one on the other, of which only the edge is seen.
