@@ -37,7 +37,7 @@ Item {
     // from edge to edge, and the words stand below them.
     readonly property bool many: points > 7 && !pictured
     readonly property bool spread: flank !== null && many
-    readonly property real size: spread ? Math.min(80 * Theme.unit, filling) : flank?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
+    readonly property real size: spread ? Math.min(76 * Theme.unit, filling) : flank?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
     readonly property real inset: even && many && below && !alone ? Math.max(0, (wish - size) / 2) : 0
     readonly property real filling: width / (points + 0.24 * (points - 1))
     // The ends stand beside the points, where there is room for that, and else below them.
