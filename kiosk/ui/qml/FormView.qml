@@ -15,7 +15,7 @@ PageFrame {
     readonly property bool alone: form.items.length === 1
     readonly property bool dense: form.items.length > 4
     // What there is of a card's width, without its margins.
-    readonly property real inner: column - 2.4 * Theme.gap
+    readonly property real inner: column - (easy ? 3 : 2.4) * Theme.gap
     // How the rows of a wide page look if the words for the ends of their scales stand at both sides; null if not so.
     readonly property var flank: width > height && !alone && !dense && Theme.textSize <= 1.15 ? flanks() : null
     // Whether scales stand beside their texts, below each other: then the words for their ends are read once.
@@ -112,7 +112,7 @@ PageFrame {
         const two = 2 * 1.37 * Theme.size(38), card = two + 1.37 * Theme.size(30) + (Theme.textSize > 1 ? 194 : 202) * Theme.unit
         return rated && form.items.length * card <= room - lead
     }
-    readonly property real spread: (dense || tight ? 8 : tiles !== null ? 16 : 12) * Theme.unit
+    readonly property real spread: (dense || tight ? 8 : tiles !== null ? 24 : 12) * Theme.unit
     // Whether a line over the page tells which page it is.
     readonly property bool lined: upright && besides
     // How far below it the first card begins.
@@ -130,8 +130,8 @@ PageFrame {
         if (!calm || upright || alone || mirrored)
             return null
         for (const size of [34, 33, 32, 31, 30, 29].map(Theme.size))
-            for (const height of [88, 84, 80, 79, 78, 77, 76, 72, 68])
-                if (form.items.every(item => tiled(item, size)) && tiledHeight(height) - 16 * Theme.unit <= room)
+            for (const height of [88, 84, 80, 78, 77, 76, 75, 74, 72, 68])
+                if (form.items.every(item => tiled(item, size)) && tiledHeight(height) - 24 * Theme.unit <= room)
                     return {size, height: height * Theme.unit}
         return null
     }
@@ -146,7 +146,7 @@ PageFrame {
             return true
         if (item.kind !== "single")
             return false
-        const half = (inner - 18 * Theme.unit) / 2 - 79 * Theme.unit
+        const half = (inner - 12 * Theme.unit) / 2 - 79 * Theme.unit
         // Small letters are set on whole pixels, and take a little more.
         return item.options.every(option => 1.01 * thin.advanceWidth(option.text) * size / 100 <= half)
     }
@@ -162,7 +162,7 @@ PageFrame {
         if (!easy)
             return Theme.size(34)
         const usual = form.items.map(item => columnsAt(item, Theme.size(34)))
-        return [40, 38, 36].map(Theme.size).find(size => form.items.every((item, at) => columnsAt(item, size) === usual[at])) ?? Theme.size(34)
+        return [38, 36].map(Theme.size).find(size => form.items.every((item, at) => columnsAt(item, size) === usual[at])) ?? Theme.size(34)
     }
     function columnsAt(item: var, size: real): int {
         if (item.kind !== "single")
@@ -177,8 +177,8 @@ PageFrame {
         for (const item of form.items) {
             const lines = Math.ceil(letters.advanceWidth(item.text) * asking / 100 / inner)
             const rows = Math.ceil((item.options?.length ?? 0) / 2)
-            tall += form.hidden.includes(item.id) ? 0 : item.kind === "integer" ? (ranged(item) ? 120 : 130) * Theme.unit
-                : lines * 1.37 * asking + (42 + (height + 18) * rows) * Theme.unit
+            tall += form.hidden.includes(item.id) ? 0 : item.kind === "integer" ? (ranged(item) ? 132 : 140) * Theme.unit
+                : lines * 1.37 * asking + (60 + (height + 12) * rows) * Theme.unit
         }
         return tall
     }
@@ -371,7 +371,7 @@ PageFrame {
             room: view.room - view.lead
             more: view.words["scroll-more"]
             // Further apart where the page has room for it; and what belongs together, too.
-            readonly property real plain: summed(box => box.plain + (view.tiles !== null ? 16 : view.ample || view.easy ? 24 : 30) * Theme.unit)
+            readonly property real plain: summed(box => box.plain + (view.tiles !== null || view.ample || view.easy ? 24 : 30) * Theme.unit)
             readonly property int rows: summed(box => box.rows)
             // How much higher than usual each row of options of an upright page is.
             readonly property real grown: view.easy && rows > 0 ? Math.max(0, Math.min(16 * Theme.unit, Math.floor((room - plain) / rows))) : 0

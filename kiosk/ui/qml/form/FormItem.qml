@@ -70,7 +70,7 @@ Item {
     readonly property real addable: alone || beside ? 0 : (ample ? 48 : 32) * Theme.unit
     readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : ample ? Theme.textSize > 1 ? 16 : 32 : easy ? 18 : airy ? 22 : paired > 0 ? 12 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
-    readonly property real usualMargin: alone ? 0 : own ? Math.max(10 * Theme.unit, rowMargin - taken / 2) : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : ample ? 12 : easy ? inline ? 26 : 20 : airy ? 26 : paired > 0 ? inline ? ranged ? 14 : 8 : 16 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
+    readonly property real usualMargin: alone ? 0 : own ? Math.max(10 * Theme.unit, rowMargin - taken / 2) : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : ample ? 12 : easy ? inline ? 28 : 30 : airy ? 26 : paired > 0 ? inline ? ranged ? 16 : 8 : 17 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
     readonly property real taken: flank ? Math.max(0, told.height - rowHeight) : 0
     // Letters have some air above them already; what stands below them does not.
@@ -133,7 +133,7 @@ Item {
     }
     Column {
         id: content
-        anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; verticalCenterOffset: box.head / 2 - box.raised; margins: box.alone ? 0 : 1.2 * Theme.gap }
+        anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; verticalCenterOffset: box.head / 2 - box.raised; margins: box.alone ? 0 : (box.easy ? 1.5 : 1.2) * Theme.gap }
         spacing: box.usualSpacing
 
         Item {
@@ -162,7 +162,7 @@ Item {
                     font {
                         pixelSize: box.item.kind === "page" ? Theme.size(36) : box.alone ? Theme.heading
                             : box.beside || (box.item.kind === "slider" && box.rowText > 0) ? box.rowText
-                            : box.paired > 0 ? box.asking : box.dense ? Theme.reading : box.airy ? Theme.size(38) : Theme.body
+                            : box.paired > 0 ? box.asking : box.dense ? Theme.reading : box.easy ? Theme.size(36) : box.airy ? Theme.size(38) : Theme.body
                         bold: box.item.kind !== "page"
                     }
                     lineHeight: box.item.kind === "page" ? 1.15 : 1
@@ -329,7 +329,7 @@ Item {
             grown: box.grown
             easy: box.easy
             paired: box.paired
-            gridGap: (box.paired > 0 || box.calm ? 18 : 12) * Theme.unit
+            gridGap: (box.calm && box.paired === 0 ? 18 : 12) * Theme.unit
             usual: box.paired > 0 ? box.pairHeight : (box.tight || (Theme.textSize > 1.15 && !box.large) || box.form.items.length > 3 ? 62 : box.airy ? 84 : 76) * Theme.unit
             onPicked: option => several ? box.form.toggle(box.item.id, option) : box.form.choose(box.item.id, option)
         }
