@@ -2,18 +2,24 @@
 
 PyInstaller itself has :mod:`dis` make an object of each of two million instructions, which takes a third of its time.
 Looking for what it could free takes another sixth. It visits every expression of a million in search of imports, and
-asks again for the libraries that a file needs, as its cache lives only as long as the call. What it finds is the same.
+asks again for the libraries that a file needs, as its cache lives only as long as the call. It compiles each module,
+though Python keeps it compiled, and lists the libraries of a file by a shell script. What it finds is the same.
 """
 
 from __future__ import annotations
 
 import ast
+import builtins
 import dis
 import gc
+import os
+import subprocess
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
-from types import CodeType
+from importlib.machinery import SourceFileLoader
+from pathlib import Path
+from types import CodeType, SimpleNamespace
 from typing import Any, NamedTuple
 
 
@@ -70,6 +76,37 @@ def remembered(get_imports: Callable[..., Any]) -> Callable[..., Any]:
     return remember
 
 
+def compile_once(source: Any, filename: str, *settings: Any) -> Any:
+    """Compile as Python does, but take a module that is parsed already from ``__pycache__``, if that is up to date.
+
+    PyInstaller also parses the stub beside a compiled extension, and compiles it by the name of the extension.
+    """
+    if isinstance(source, ast.AST) and filename.endswith(".py"):
+        return SourceFileLoader("", filename).get_code("")
+    return builtins.compile(source, filename, *settings)
+
+
+def loader(maps: Path = Path("/proc/self/maps")) -> str | None:
+    """Return where the program is that loads libraries with glibc; None on other systems."""
+    if not maps.is_file():
+        return None
+    files = (line.split(maxsplit=5)[-1] for line in maps.read_text("utf-8", "replace").splitlines())
+    return next((file for file in files if Path(file).name.startswith("ld-linux")), None)
+
+
+def without_ldd(program: str) -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Return a way to run commands that has the loader itself list libraries, as ldd does, which calls it twice."""
+
+    def run(command: Sequence[str], **options: Any) -> subprocess.CompletedProcess[str]:
+        if command[0] != "ldd":
+            return subprocess.run(command, check=False, **options)
+        # With its own option, --list, it would end at a library that is missing.
+        environment = os.environ | {"LD_TRACE_LOADED_OBJECTS": "1"}
+        return subprocess.run((program, *command[1:]), env=environment, check=False, **options)
+
+    return run
+
+
 def main() -> None:
     """Run PyInstaller with the arguments of this program."""
     gc.disable()
@@ -81,6 +118,10 @@ def main() -> None:
 
     util.iterate_instructions = iterate_instructions
     modulegraph._Visitor.generic_visit = visit_statements
+    # A module's own name goes before Python's.
+    modulegraph.compile = compile_once
+    if program := loader():
+        bindepend.subprocess = SimpleNamespace(**vars(subprocess) | {"run": without_ldd(program)})
     bindepend.get_imports = remembered(bindepend.get_imports)
     run()
 

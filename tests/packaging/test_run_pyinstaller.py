@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import ast
 import dis
+import py_compile
+import subprocess
 from itertools import pairwise
 from pathlib import Path
+from shutil import copyfile
 from types import CodeType, SimpleNamespace
 from typing import Any
 
 import pytest
+from PySide6 import QtCore
 
 from tests.packaging.scripts import load
 
@@ -100,3 +104,48 @@ def test_a_file_is_asked_for_its_libraries_once() -> None:
     get_imports = SCRIPT.remembered(look)
     told = [get_imports("a"), get_imports("a", ["b"]), get_imports("a", ["b"]), get_imports("a", search_paths=None)]
     assert (told, asked) == ([1, 2, 2, 1], [("a", None), ("a", ("b",))])
+
+
+def test_a_parsed_module_is_taken_from_what_python_keeps_while_that_is_new(tmp_path: Path) -> None:
+    module = tmp_path / "shelf.py"
+    module.write_text("kept = 1\n", "utf-8")
+    py_compile.compile(str(module), doraise=True)
+    parsed = ast.parse("parsed = 1\n")
+    kept = SCRIPT.compile_once(parsed, str(module), "exec", 0)
+    assert (kept.co_names, kept.co_filename) == (("kept",), str(module))
+    module.write_text("changed_since = 1\n", "utf-8")
+    assert SCRIPT.compile_once(parsed, str(module), "exec", 0).co_names == ("changed_since",)
+
+
+def test_the_stub_of_an_extension_and_what_is_no_module_are_compiled(tmp_path: Path) -> None:
+    extension = str(tmp_path / "shelf.so")
+    stub = SCRIPT.compile_once("stub = 1\n", extension, "exec", ast.PyCF_ONLY_AST)
+    assert isinstance(stub, ast.Module)
+    assert SCRIPT.compile_once(stub, extension, "exec", 0).co_names == ("stub",)
+
+
+@pytest.mark.parametrize("lost", [0, 1], ids=["found", "lost"])
+def test_the_loader_lists_the_libraries_that_ldd_lists(
+    lost: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bindepend = pytest.importorskip("PyInstaller.depend.bindepend")
+    program = SCRIPT.loader()
+    if program is None:
+        pytest.skip("this system has another loader than glibc's")
+    library = Path(QtCore.__file__)
+    if lost:
+        # Away from its folder it does not find the libraries beside it.
+        library = Path(copyfile(library, tmp_path / library.name))
+    by_ldd = bindepend.get_imports(str(library))
+    monkeypatch.setattr(
+        bindepend, "subprocess", SimpleNamespace(**vars(subprocess) | {"run": SCRIPT.without_ldd(program)})
+    )
+    assert bindepend.get_imports(str(library)) == by_ldd
+    assert any(place is None for _, place in by_ldd) == bool(lost)
+
+
+def test_a_system_without_that_loader_keeps_ldd(tmp_path: Path) -> None:
+    maps = tmp_path / "maps"
+    assert SCRIPT.loader(maps) is None
+    maps.write_text("7f-80 r-xp 0 fe:00 33 /lib/ld-musl-x86_64.so.1\n7f-80 rw-p 0 00:00 0\n", "utf-8")
+    assert SCRIPT.loader(maps) is None
