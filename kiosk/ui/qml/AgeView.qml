@@ -40,7 +40,7 @@ PageFrame {
             Column {
                 id: both
                 anchors.centerIn: parent
-                spacing: 0.5 * Theme.gap
+                spacing: (view.pictured && view.upright ? 1.4 : 0.5) * Theme.gap
                 Item {
                     anchors.horizontalCenter: parent.horizontalCenter
                     visible: view.pictured
@@ -89,7 +89,7 @@ PageFrame {
     Column {
         id: page
         // Close to the question that it explains.
-        y: told.visible ? Math.max(0, Math.min(0.7 * Theme.gap, view.room - height)) : 0
+        y: told.visible ? Math.max(0, Math.min(0.7 * Theme.gap, view.room - height)) : view.pictured ? 0.6 * Theme.gap : 0
         width: parent?.width ?? 0
         spacing: 2 * Theme.gap
 
@@ -112,7 +112,7 @@ PageFrame {
             readonly property bool airy: Theme.textSize <= 1.15
             // With pictures they take what the page has left.
             readonly property real filling: view.upright ? Math.min(1000, (view.room - told.height - page.spacing) / Theme.unit - 34)
-                : Math.min(760, view.room / Theme.unit - 16)
+                : Math.min(760, view.room / Theme.unit - 30)
             readonly property real least: view.pictured ? filling : !abreast ? 260 : view.width < view.height ? (airy ? 560 : 440) : airy ? 400 : 320
             readonly property real tall: Math.max(yes.implicitHeight, no.implicitHeight, least * Theme.unit)
             width: parent.width

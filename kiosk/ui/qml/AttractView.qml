@@ -65,7 +65,7 @@ FocusScope {
             most: view.width - 4 * Theme.gap
             words: way.modelData.start
             font.pixelSize: Theme.size(54)
-            width: view.even ? Math.max(implicitWidth, view.share(view.cardSize)) : Math.min(implicitWidth, most)
+            width: view.even ? Math.max(wish, view.share(view.cardSize)) : Math.min(wish, most)
             horizontalPadding: (view.even ? 24 : Theme.textSize > 1 ? 44 : 68) * Theme.unit
             verticalPadding: (view.ample ? 42 : 32) * Theme.unit
             focus: true

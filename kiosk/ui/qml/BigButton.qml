@@ -19,8 +19,11 @@ Button {
     // How round it is at most.
     property real corner: Infinity
     property real letters: Theme.onButtons
+    // How wide its words need it, within a pixel or two. Measured apart: where what lays a text out depends on the text's own
+    // size, lines get lost.
+    readonly property real wish: Math.ceil(measure.advanceWidth) + 2 + leftPadding + rightPadding
 
-    width: Math.min(implicitWidth, most)
+    width: Math.min(wish, most)
     Accessible.name: words
     focusPolicy: Qt.StrongFocus
     horizontalPadding: 56 * Theme.unit
@@ -39,6 +42,11 @@ Button {
     Keys.onReturnPressed: event => { if (!event.isAutoRepeat) clicked() }
     Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
 
+    TextMetrics {
+        id: measure
+        font: button.font
+        text: button.words
+    }
     contentItem: Text {
         transform: Translate { y: -below.height / 2 - (button.note === "" ? 0 : 2 * Theme.unit) }
         textFormat: Text.PlainText
@@ -48,7 +56,7 @@ Button {
         horizontalAlignment: Text.AlignHCenter
         verticalAlignment: Text.AlignVCenter
         // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
-        wrapMode: button.width < button.implicitWidth ? Text.Wrap : Text.NoWrap
+        wrapMode: button.width < button.wish - 2 ? Text.Wrap : Text.NoWrap
     }
     Text {
         id: below

@@ -267,7 +267,7 @@ FocusScope {
                 readonly property real widest: {
                     let most = 0
                     for (let i = 0; i < made; i++)
-                        most = Math.max(most, (buttons.itemAt(i) as BigButton)?.implicitWidth ?? 0)
+                        most = Math.max(most, (buttons.itemAt(i) as BigButton)?.wish ?? 0)
                     return most
                 }
                 readonly property real needed: {
@@ -290,7 +290,7 @@ FocusScope {
                         required property var modelData
                         objectName: modelData.name
                         most: content.width
-                        width: flow.alone ? most : flow.pair ? Math.floor(flow.half) : Math.min(implicitWidth, most)
+                        width: flow.alone ? most : flow.pair ? Math.floor(flow.half) : Math.min(wish, most)
                         font.pixelSize: Theme.size(flow.alone ? 50 : calm.roomy ? 40 : 36)
                         verticalPadding: (flow.alone ? 36 : 30) * Theme.unit
                         words: modelData.words

@@ -73,7 +73,7 @@ PageFrame {
             id: pane
             width: parent.width
             // The boxes keep some distance from the answers below, but where large texts need the room.
-            room: view.room - (Theme.textSize <= 1.15 ? 0.5 * Theme.gap : 0)
+            room: view.room - Math.max(0, view.way.over - 0.5 * Theme.gap) - (Theme.textSize <= 1.15 ? 0.5 * Theme.gap : 0)
             more: view.words["scroll-more"]
             // What there is to tick stands apart from what is read, as far as the page has room.
             spacing: Math.max(0.5 * Theme.gap, Math.min((view.width < view.height ? 3.4 : 2.2) * Theme.gap, room - (view.short ? points.height : sheet.height) - boxes.height))

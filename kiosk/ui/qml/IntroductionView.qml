@@ -61,6 +61,8 @@ PageFrame {
         // Room for the arrow of a mark, above the cards.
         readonly property real numbers: (view.abreast ? 24 : 34) * Theme.unit
         readonly property real pad: 0.95 * Theme.gap
+        // Between cards and words beside them: about as much as before the cards, but where large words need the width.
+        readonly property real apart: (Theme.textSize > 1.15 ? 1.2 : 2) * Theme.gap
         // Below the words, as much as above the cards that have no arrow.
         readonly property real floor: 1.7 * Theme.gap
 
@@ -118,9 +120,9 @@ PageFrame {
         }
         Balanced {
             id: telling
-            x: view.abreast ? (scene.width - width) / 2 : Theme.across(scene.pad + scene.numbers + board.width + 1.2 * Theme.gap, width, scene.width)
+            x: view.abreast ? (scene.width - width) / 2 : Theme.across(scene.pad + scene.numbers + board.width + scene.apart, width, scene.width)
             y: view.abreast ? board.y + board.height + 0.6 * Theme.gap : (scene.height - height) / 2
-            width: scene.width - 2 * (view.abreast ? Math.max(scene.pad, 32 * Theme.unit) : scene.pad) - (view.abreast ? 0 : scene.numbers + 3 * scene.small + 1.2 * Theme.gap)
+            width: scene.width - 2 * (view.abreast ? Math.max(scene.pad, 32 * Theme.unit) : scene.pad) - (view.abreast ? 0 : scene.numbers + 3 * scene.small + scene.apart)
             text: scene.text
             font { pixelSize: view.abreast ? Theme.reading : Theme.textSize > 1.15 ? Theme.body : Theme.size(38); bold: true }
             horizontalAlignment: view.abreast ? Text.AlignHCenter : Text.AlignLeft

@@ -38,8 +38,8 @@ FocusScope {
     signal went()
     signal turnedDown()
 
-    readonly property real wish: (goes ? go.implicitWidth : 0) + (refuses ? no.implicitWidth + Theme.gap : 0)
-        + (returns ? back.implicitWidth + Theme.gap : 0)
+    readonly property real wish: (goes ? go.wish : 0) + (refuses ? no.wish + Theme.gap : 0)
+        + (returns ? back.wish + Theme.gap : 0)
     // Two equal ones take half of an upright page's width each, and the way back stands below them. Larger texts need one row
     // for each.
     readonly property bool halved: even && fills && goes && refuses && Theme.textSize <= 1.15
@@ -49,13 +49,15 @@ FocusScope {
     readonly property real spread: (width - (returns && !halved ? back.width + Theme.gap : 0) - Theme.gap) / 2
     // Two equal ones are higher than a single one, with air above and below a line and its note.
     readonly property real stout: halved ? 30 * Theme.unit : even ? 22 * Theme.unit : 0
-    readonly property real share: fills ? spread : Math.min(spread, Math.max(go.implicitWidth, no.implicitWidth))
+    readonly property real share: fills ? spread : Math.min(spread, Math.max(go.wish, no.wish))
     readonly property real step: 0.5 * Theme.gap
+    // How far they reach above their place.
+    readonly property real over: Math.max(0, -go.y)
     // As high without a way on, so that the way back stands at the same place.
     readonly property real tallest: level ? go.implicitHeight : !goes && !returns ? 0 : Math.max(goes ? go.height : go.implicitHeight, returns ? back.height : 0)
 
     // Where there are too many for one row: whether the way back stands beside the other one.
-    readonly property bool paired: refuses && back.implicitWidth + Theme.gap + no.implicitWidth <= width
+    readonly property bool paired: refuses && back.wish + Theme.gap + no.wish <= width
 
     height: halved ? go.height + (returns ? Theme.gap + back.height : 0) : beside ? tallest : (goes ? go.height : 0) + (refuses ? no.height + step : 0)
                                + (returns && !paired ? back.height + step : 0)
@@ -70,7 +72,7 @@ FocusScope {
         visible: ways.goes
         most: ways.width
         width: ways.level ? ways.share
-             : !ways.fills || ways.beside && ways.refuses ? Math.min(implicitWidth, most)
+             : !ways.fills || ways.beside && ways.refuses ? Math.min(wish, most)
              // No wider than the other way on, which is as easy to find.
              : (ways.beside || ways.paired) && ways.returns ? ways.width - back.width - Theme.gap : ways.width
         x: Theme.across(ways.width - width, width, ways.width)
@@ -93,21 +95,15 @@ FocusScope {
         visible: ways.refuses
         most: ways.width
         width: ways.level ? ways.share
-             : !ways.fills || !ways.returns ? Math.min(implicitWidth, most)
+             : !ways.fills || !ways.returns ? Math.min(wish, most)
              : ways.beside ? ways.width - go.width - back.width - 2 * Theme.gap : ways.paired ? ways.width - back.width - Theme.gap : ways.width
         x: Theme.across(ways.width - width - (ways.beside || ways.halved ? go.width + Theme.gap : 0), width, ways.width)
         y: ways.level ? go.y : ways.beside ? 0 : go.height + ways.step
         height: ways.level ? go.height : implicitHeight
         quiet: true
-        horizontalPadding: (ways.halved ? 28 : 44) * Theme.unit
+        horizontalPadding: (ways.even && ways.fills ? 28 : 44) * Theme.unit
         // Two lines need less air above and below them.
-        verticalPadding: (ways.level && metrics.advanceWidth > ways.spread - 2 * horizontalPadding ? 10 : 26) * Theme.unit
-        // Unlike a function of FontMetrics, its width is measured again when the letters change.
-        TextMetrics {
-            id: metrics
-            font: no.font
-            text: no.words
-        }
+        verticalPadding: (ways.halved ? 18 : ways.level && wish > ways.spread ? 10 : 26) * Theme.unit
         words: ways.other
         onClicked: ways.turnedDown()
     }
