@@ -2,6 +2,7 @@
 
     python -m tests.ui.settling             # every page, in every text size and window
     python -m tests.ui.settling --every 24  # every page, in one window and every 24th text size
+    python -m tests.ui.settling --every 61  # every page, in one window and one text size
     python -m tests.ui.settling --only "3 likert, latin"
     python -m tests.ui.settling --every 24 --also "3 likert, latin"
 
@@ -293,7 +294,8 @@ def main(arguments: list[str]) -> int:
             step = options.every or 1
             # Each script and each number of items comes into every window.
             here = (page.block + page.block // MOST_ITEMS) % len(WINDOWS) == place
-            chosen = TEXT_SIZES[page.block % step :: step] if here or not options.every else []
+            # A prime number of sizes lies between one block and the next, so that all of them come up.
+            chosen = TEXT_SIZES[17 * page.block % step :: step] if here or not options.every else []
             names = {name_of(page.name, window, size): size for size in TEXT_SIZES}
             wanted = {
                 told: size

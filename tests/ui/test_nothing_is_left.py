@@ -135,7 +135,7 @@ def differences(before: list[dict[str, str]], after: list[dict[str, str]]) -> li
     return [(one, dict(other.items() - one.items())) for one, other in zip(before, after, strict=True) if one != other]
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", [1, 2])
 def test_after_any_session_even_of_one_who_taps_everywhere_the_kiosk_is_as_it_was_before_the_first(
     make_booth: MakeBooth, seed: int
 ) -> None:

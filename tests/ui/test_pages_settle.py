@@ -12,7 +12,7 @@ ONCE_WENT_ON = ("3 likert, latin, 1920 x 1080", "4 likert, latin, 1080 x 1920")
 
 def test_pages_settle() -> None:
     # In a process of its own, which ends itself: a page that does not settle cannot be interrupted from Python.
-    which = ["--every", "24", *(f"--also={page}" for page in ONCE_WENT_ON)]
+    which = ["--every", "61", *(f"--also={page}" for page in ONCE_WENT_ON)]
     done = subprocess.run(
         [sys.executable, "-m", "tests.ui.settling", *which], capture_output=True, text=True, check=False, timeout=300
     )

@@ -52,12 +52,12 @@ def answered(booth: Booth) -> tuple[Status | None, int, set[str]]:
 
 
 @pytest.mark.parametrize("hand", [Keyboard, Finger])
-@pytest.mark.parametrize("seed", [1, 2])
 def test_the_whole_study_with_every_kind_of_item_is_done_by_keyboard_alone_and_by_touch_alone(
-    make_booth: MakeBooth, hand: MakeHand, seed: int
+    make_booth: MakeBooth, hand: MakeHand
 ) -> None:
     booth = make_booth(settings=whole_study())
-    sit(booth.app, hand, seed)
+    # This visitor skips the practice; that of the study as it comes practises.
+    sit(booth.app, hand, 2)
     asked = {item.id for item in ASKED.values()} | {"age", "gender", "robots"}
     assert answered(booth) == (Status.COMPLETED, 3, asked)
 
