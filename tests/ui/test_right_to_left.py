@@ -126,6 +126,26 @@ def test_the_helpers_sentence_begins_at_the_right(window: Window) -> None:
     assert alignment(shown_text(window, "Shall we play?")) == RIGHT
 
 
+def test_lines_that_are_made_even_are_shortened_at_the_left(window: Window) -> None:
+    show(window, "about")
+    even = [text for text in parts(window.shown.contentItem(), "QQuickText") if (text.property("slack") or 0) > 0]
+    assert even
+    assert [text.property("rightPadding") for text in even] == [0] * len(even)
+
+
+def test_the_title_ends_before_the_controls_where_a_form_has_the_whole_width(window: Window) -> None:
+    show(window, "form", *(RATED.model_copy(update={"id": f"rated{number}"}) for number in range(4)))
+    window.screens.avatar.leave(away=True)
+    lay_out(window.shown)
+    title = item(window, "page-title")
+    controls = place(window, "control-sound")
+    assert item(window, "item-rated0").width() > 0.8 * window.shown.width()
+    assert title.mapRectToScene(QRectF(0, 0, title.width(), title.height())).right() <= controls.left()
+    progress = place(window, "form-progress")
+    assert progress.right() <= place(window, "page-title").right() - title.property("contentWidth")
+    window.screens.avatar.leave(away=False)
+
+
 def test_a_question_begins_at_the_right_edge(window: Window) -> None:
     show(window, "form", RATED, CHOSEN)
     card = item(window, f"item-{RATED.id}")

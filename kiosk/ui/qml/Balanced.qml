@@ -7,7 +7,8 @@ PlainText {
 
     // How long the last line is to be at least, as a share of the longest.
     property real least: horizontalAlignment === Text.AlignHCenter ? 0.75 : 0.4
-    readonly property bool fromLeft: effectiveHorizontalAlignment !== Text.AlignRight
+    // Qt does not always tell that the alignment in effect changes when a page becomes mirrored.
+    readonly property bool fromLeft: LayoutMirroring.enabled ? horizontalAlignment === Text.AlignRight : effectiveHorizontalAlignment !== Text.AlignRight
     readonly property real slack: width > 0 && wrapMode !== Text.NoWrap ? spare(text, width, letters.font) : 0
 
     wrapMode: Text.Wrap

@@ -349,7 +349,7 @@ PageFrame {
         font.pixelSize: Theme.size(34)
         // Beside the title on a wide screen, where the controls and the dots of the visit are at the end of its line.
         readonly property bool follows: view.width > view.height && view.titleWidth + width + Theme.gap < view.column - view.cornered + 1
-        x: Theme.across(follows ? view.titleWidth + Theme.gap : view.column - width, width, view.column)
+        x: follows ? Theme.across(view.titleWidth + Theme.gap, width, view.column - view.cornered) : Theme.across(view.column - width, width, view.column)
         // In the title's line.
         y: -Theme.gap - 0.5 * (Theme.pageTitle * 1.36 + height) + (follows ? 0.13 * Theme.pageTitle : 0)
         color: Theme.faintInk

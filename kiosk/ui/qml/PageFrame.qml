@@ -78,7 +78,8 @@ FocusScope {
     PlainText {
         id: heading
         objectName: "page-title"
-        x: body.x + Theme.across(0, width, frame.column)
+        // The controls stand at the right of a mirrored page, too.
+        x: body.x + Theme.across(0, width, frame.column - frame.cornered)
         y: frame.above
         transform: Translate { y: -frame.lift }
         width: frame.column - frame.cornered - (frame.besides ? frame.beside.width + Theme.gap : 0)
