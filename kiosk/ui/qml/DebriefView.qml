@@ -11,9 +11,10 @@ PageFrame {
     required property string labName
 
     // As much of the height as the text leaves, so that a page that fits does not scroll.
-    readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min((signed && width < height ? most : paired ? 326 : 350) * Theme.unit, room - texts.height - keepsake.crown - keepsake.under - 2 * pad - 2 * rim - (width < height ? 1.1 : 1) * Theme.gap))
+    readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min((signed && width < height ? most : paired ? usual : 350) * Theme.unit, room - texts.height - keepsake.crown - 2 * pad - 2 * rim - (width < height ? 1.1 : 1) * Theme.gap))
     // How large the code may be on an upright page, where the words beside it have to find room.
-    readonly property real most: width < height && fits(Theme.size(34), noted, apart, 400) ? 400 : 340
+    readonly property real most: width < height && fits(Theme.size(34), noted, apart, 400) ? 400 : usual
+    readonly property real usual: 352
     // How far the white around the code reaches beyond its own frame, for round corners.
     readonly property real rim: 6 * Theme.unit
     // Whole pixels for each square, so that their edges are sharp.
@@ -23,7 +24,7 @@ PageFrame {
     // little for that, without the drawings.
     readonly property bool signed: debrief.lines.length > 0 && debrief.lines[0].sign !== "" && fits(Theme.small, Theme.small, 0.5)
     // Beside the helper, the first line leads to those after it, which stand two by two close below it, in the order in which
-    // they are read. A last one has all of the width, in a card too: as large as there is room for that, and for a code that is easy to scan.
+    // they are read. A last one is plain, as the first: as large as there is room for that, and for a code that is easy to scan.
     readonly property var rows: inRows(read)
     readonly property var measuredRows: inRows(measures)
     function inRows(all: var): var {
@@ -36,35 +37,36 @@ PageFrame {
     }
     readonly property real pairedSize: !accompanied || width <= height || read.length < 3 || read[0].sign === "" ? 0
         // With less room than for a large code there is still a smaller one.
-        : [36, 35, 34].map(Theme.size).find(size => brief(size) && 1.02 * stacked(size) + between + (Theme.gap + 342 * Theme.unit) <= room)
+        : [400, 342].map(card => [36, 35, 34].map(Theme.size).find(size => brief(size) && 1.02 * stacked(size) + between + Theme.gap + card * Theme.unit <= room)).find(size => size !== undefined)
             ?? [36, 35, 34, 33, 32].map(Theme.size).find(size => brief(size) && stacked(size) + between + 333 * Theme.unit <= room) ?? 0
     readonly property bool pairable: pairedSize > 0
-    // All but the one that leads are cards, with this much around what they say.
+    // Those that stand in pairs are cards, with this much around what they say.
     readonly property real inset: 0.75 * Theme.gap
     readonly property real insetAcross: Theme.gap
     // How far a row is below the one before it: cards are close to the line that leads to them.
     function step(index: int): real {
         return index === 0 ? 0 : (index === 1 ? 0.75 : 1) * Theme.gap
     }
-    // Heading and text of the line that leads are one line, where that has room.
-    function runsOn(size: real): bool {
-        return measures[0]?.length === 2 && (measures[0][0] + measures[0][1] + 60) * size / 100 <= 0.97 * column
+    // Heading and text of a plain point are one line, where that has room.
+    function runsOn(widths: var, size: real): bool {
+        return widths?.length === 2 && (widths[0] + widths[1] + 60) * size / 100 <= 0.99 * column
     }
     readonly property real between: rows.reduce((sum, row, index) => sum + step(index), 0)
     // How many lines has the one of this row that has most of them, and how high all rows are.
-    function tallest(row: var, size: real, leads = false): int {
-        const width = leads ? column : (row.length > 1 ? (column - Theme.gap) / 2 : column) - 2 * insetAcross
-        return leads && runsOn(size) ? 1 : Math.max(...row.map(widths => broken(widths, size, leads ? width : width - 2.5 * size - Theme.gap)))
+    function tallest(row: var, size: real): int {
+        const plain = row.length === 1
+        const width = plain ? column : (column - Theme.gap) / 2 - 2 * insetAcross - 2.5 * size - Theme.gap
+        return plain && runsOn(row[0], size) ? 1 : Math.max(...row.map(widths => broken(widths, size, width)))
     }
     function brief(size: real): bool {
-        return measuredRows.every((row, index) => tallest(row, size, index === 0) <= 3)
+        return measuredRows.every(row => tallest(row, size) <= 3)
     }
     function stacked(size: real): real {
-        return measuredRows.reduce((sum, row, index) => sum + (index > 0 ? 2 * inset : 0)
-            + Math.max(index > 0 ? 2.5 * size : 0, tallest(row, size, index === 0) * (leading + 0.06) * Math.ceil(1.37 * size)), 0)
+        return measuredRows.reduce((sum, row) => sum + (row.length > 1 ? 2 * inset : 0)
+            + Math.max(row.length > 1 ? 2.5 * size : 0, tallest(row, size) * (leading + 0.06) * Math.ceil(1.37 * size)), 0)
     }
     readonly property bool paired: signed && pairable
-    readonly property real size: paired ? pairedSize : signed ? (width < height ? [38, 36, 34, 32, 30, 29] : [32, 30, 29]).map(Theme.size).find(size => fits(size, noted, apart, most > 340 ? most : 290)) ?? Theme.small
+    readonly property real size: paired ? pairedSize : signed ? (width < height ? [38, 36, 34, 32, 30, 29] : [32, 30, 29]).map(Theme.size).find(size => fits(size, noted, apart, most > usual ? most : 290)) ?? Theme.small
         : room < 720 * Theme.unit ? Theme.small : Theme.reading
     // What stands on the card is read from it at home, in a photograph.
     readonly property real noted: [Theme.body, Theme.reading].find(size => fits(Theme.size(32), size, width < height ? 0.5 : 0.4)) ?? Theme.small
@@ -102,7 +104,7 @@ PageFrame {
     }
     // What is added to that where an upright page has room for it.
     readonly property real further: !signed || width > height ? 0
-        : Math.max(0, Math.min(Theme.gap, (0.92 * room - estimate(size, noted, apart, most > 340 ? most : 290)) / read.length))
+        : Math.max(0, Math.min(Theme.gap, (0.92 * room - estimate(size, noted, apart, most)) / read.length))
     // The widths of texts in letters of 100 pixels, part by part, measured once for all sizes that are tried.
     readonly property bool upright: width < height
     readonly property var measures: read.map(line => measured(line.text, boldLetters))
@@ -140,15 +142,14 @@ PageFrame {
         // Among lines with headings, one without is a heading itself.
         strong: lead === "" && view.read.some(line => line.text.includes("\n"))
     }
-    // All but the one that leads have a frame.
+    // Those that stand in pairs have a frame.
     component Card: Rectangle {
         id: card
         required property var modelData
         property bool bare: false
-        property bool leads: false
         property real tall: said
         readonly property real inset: bare ? 0 : view.inset
-        readonly property bool runsOn: leads && view.runsOn(view.size)
+        readonly property bool runsOn: bare && view.runsOn(view.measured(modelData.text, boldLetters), view.size)
         readonly property real said: runsOn ? lead.height : point.height
         height: tall + 2 * inset
         radius: Theme.radius
@@ -161,7 +162,7 @@ PageFrame {
             y: card.inset
             width: card.width - 2 * x
             modelData: card.modelData
-            sign: card.leads ? "" : modelData.sign
+            sign: card.bare ? "" : modelData.sign
         }
         Row {
             id: lead
@@ -221,8 +222,7 @@ PageFrame {
                                 model: row.modelData
                                 Card {
                                     width: (texts.width - (row.modelData.length - 1) * row.spacing) / row.modelData.length
-                                    bare: row.index === 0
-                                    leads: row.index === 0
+                                    bare: row.modelData.length === 1
                                     tall: row.tall
                                 }
                             }
@@ -253,9 +253,7 @@ PageFrame {
                 width: pane.width
                 // On an upright screen its first line stands over all of its width, so that the code has more room.
                 readonly property real crown: told.stacked ? first.height + 0.6 * Theme.gap : 0
-                // And the code has a line of its own below it.
-                readonly property real under: holds.there ? holds.height + 0.25 * Theme.gap : 0
-                readonly property real inner: Math.max(qr.height + 2 * view.rim + under, told.height)
+                readonly property real inner: Math.max(qr.height + 2 * view.rim, told.height)
                 height: there ? crown + inner + 2 * view.pad : 0
                 // Who is not stored has no code, and may have questions all the same.
                 readonly property bool there: view.debrief.code !== "" || view.debrief.questions !== ""
@@ -279,10 +277,12 @@ PageFrame {
                     id: qr
                     objectName: "qr"
                     visible: view.debrief.code !== ""
-                    anchors { left: parent.left; leftMargin: view.pad + view.rim; verticalCenter: parent.verticalCenter; verticalCenterOffset: (keepsake.crown - keepsake.under) / 2 }
+                    anchors { left: parent.left; leftMargin: view.pad + view.rim; verticalCenter: parent.verticalCenter; verticalCenterOffset: keepsake.crown / 2 }
                     width: view.square * view.debrief.squares
                     height: width
                     color: "white"
+                    Accessible.role: Accessible.Graphic
+                    Accessible.name: view.debrief.scanning
                     Rectangle {
                         z: -1
                         anchors { fill: parent; margins: -view.rim }
@@ -297,21 +297,6 @@ PageFrame {
                         Accessible.ignored: true
                     }
                 }
-                PlainText {
-                    id: holds
-                    objectName: "scanning"
-                    readonly property bool there: told.stacked && text !== ""
-                    visible: there
-                    x: qr.x - view.rim
-                    y: qr.y + qr.height + view.rim + 0.25 * Theme.gap
-                    width: qr.width + 2 * view.rim
-                    text: view.debrief.scanning
-                    font.pixelSize: Math.min(view.noted, Theme.size(30))
-                    fontSizeMode: Text.HorizontalFit
-                    minimumPixelSize: Theme.size(24)
-                    horizontalAlignment: Text.AlignHCenter
-                    color: Theme.ink
-                }
                 Column {
                     id: told
                     readonly property bool stacked: view.signed && view.width < view.height
@@ -324,8 +309,7 @@ PageFrame {
                     anchors {
                         left: qr.right; leftMargin: (view.debrief.code !== "" ? 1.5 : 0.25) * Theme.gap
                         right: parent.right; rightMargin: stacked ? view.pad : Theme.gap
-                        // Level with the code, where there is room for that.
-                        verticalCenter: parent.verticalCenter; verticalCenterOffset: (keepsake.crown - Math.min(keepsake.under, keepsake.inner - height)) / 2
+                        verticalCenter: parent.verticalCenter; verticalCenterOffset: keepsake.crown / 2
                     }
                     spacing: (view.signed ? 0.2 : 0.3) * Theme.gap
                     Balanced {
@@ -343,7 +327,7 @@ PageFrame {
                         PlainText {
                             id: called
                             x: Theme.across(0, width, parent.width)
-                            y: told.stacked ? 0.35 * Theme.gap : (parent.height - height) / 2
+                            y: told.stacked ? 0 : (parent.height - height) / 2
                             width: (told.stacked ? 1 : 0.45) * parent.width
                             text: view.words["debrief-code"]
                             font { pixelSize: told.size; bold: true }
