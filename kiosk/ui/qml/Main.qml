@@ -427,8 +427,8 @@ Window {
         visible: corner.visible && root.kiosk.step >= 0 && !(formPage.visible && formPage.lined)
         opacity: corner.opacity
         readonly property bool aside: root.wide && !root.whole
-        // Beside the place of the button that comes and goes, so that they stay where they are, and clear of it.
-        x: !aside ? Theme.gap : corner.atLeft ? 3 * Theme.gap + corner.fullWidth : corner.x + corner.width - corner.fullWidth - 2 * Theme.gap - width
+        // Beside the place of the button that comes and goes, so that they stay where they are, and clear of it and of what ends a title.
+        x: !aside ? Theme.gap : corner.atLeft ? 2.5 * Theme.gap + corner.fullWidth : corner.x + corner.width - corner.fullWidth - 1.5 * Theme.gap - width
         y: aside ? corner.y + (corner.step - corner.spacing - height) / 2 : root.room - height - Theme.gap
     }
     Feast {
