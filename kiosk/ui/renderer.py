@@ -62,11 +62,12 @@ _FILLED: Mapping[type[Effect], str] = {
     do.ShowConsent: "consent",
     do.ShowAgeQuestion: "age",
     do.ShowIntroduction: "introduction",
+    do.ShowBoard: "game",
     do.ShowResult: "result",
     do.ShowItems: "form",
     do.ShowDebrief: "debrief",
 }
-"""The page that an effect fills and then shows."""
+"""The page that an effect fills and then shows; a practice is on the page of the game."""
 
 FEELING_MS = 1_800
 """How long the avatar looks glad at a pair, or thoughtful at two cards that are none, unless the session says more."""

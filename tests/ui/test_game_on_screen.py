@@ -203,8 +203,7 @@ def test_cards_that_get_another_size_are_drawn_anew_for_it(app: App, qtbot: QtBo
     before = view.property("cell")
     app.window.setProperty("prepares", True)  # noqa: FBT003 - Qt's own
     app.screens.avatar.appear(present=False)
-    lay_out(app.window)
-    assert view.property("cell") != before
+    qtbot.waitUntil(lambda: view.property("cell") != before)
     qtbot.waitUntil(lambda: view.property("drawnCell") == view.property("cell"))
 
 

@@ -107,13 +107,24 @@ FocusScope {
     readonly property real wish: 52 * Theme.unit + shelf + apart + numbers + pill.height
         + rows * widestUpright
     // A whole number, or the last column might not fit into the sum of all by a rounding error.
-    readonly property real cell: Math.floor(Math.min(widest, (height - header - numbers - footer) / Math.max(1, rows)))
+    readonly property real fitting: Math.floor(Math.min(widest, (height - header - numbers - footer) / Math.max(1, rows)))
+    // While the helper comes or goes, that passes several values. Cards and tray are laid out for the last of them.
+    property bool resizes: false
+    property real cell: 0
+    onFittingChanged: if (!resizes) fit()
+    onResizesChanged: if (!resizes) fit()
+    function fit() {
+        cell = fitting
+    }
     // The cell that the pictures are drawn for. Cards in sight that get another size are drawn anew a little later, in a
     // step of its own; until then they are scaled.
     property real drawnCell: 0
     readonly property real drawn: Math.floor(drawnCell * share)
     onCellChanged: if (prepares && visible && cards.count > 0) redraw.restart(); else drawAtOnce()
-    Component.onCompleted: drawAtOnce()
+    Component.onCompleted: {
+        fit()
+        drawAtOnce()
+    }
     function drawAtOnce() {
         redraw.stop()
         drawnCell = cell
@@ -245,6 +256,7 @@ FocusScope {
         places: view.pairs
         spreads: view.upright
         lines: view.broad ? Math.ceil(places / 2) : view.lines
+        resizes: view.resizes
         pictures: view.board.tray
         landed: Math.max(0, view.board.tray.length - (joy.under ? 1 : 0))
         back: view.cardBack

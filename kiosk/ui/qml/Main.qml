@@ -264,7 +264,10 @@ Window {
         Later {
             id: boardPage
             shown: root.kiosk.screen === "game" || root.kiosk.screen === "practice"
-            anchors.fill: parent
+            // As a page, it keeps its size while it is not seen: its cards are many.
+            readonly property bool follows: !root.wide || shown || status !== Loader.Ready || root.kiosk.coming === "game"
+            Binding on width { when: boardPage.follows; value: root.wide ? root.widthOn("game") : stage.width; restoreMode: Binding.RestoreNone }
+            Binding on height { when: boardPage.follows; value: root.wide ? root.heightOn("game") : stage.height; restoreMode: Binding.RestoreNone }
             focus: visible && root.kiosk.bare
             readonly property BoardView view: item as BoardView
             sourceComponent: BoardView {
@@ -276,6 +279,7 @@ Window {
                 cardShadow: root.cardShadow
                 onTouchedSomething: helper.notice(helper.mapFromItem(boardView, touched.x, touched.y))
                 upright: !root.wide
+                resizes: root.avatar.moves
                 prepares: root.prepares
                 said: helper.says
                 lent: Math.max(0, helper.reach - Theme.gap)

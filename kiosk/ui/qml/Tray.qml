@@ -12,25 +12,36 @@ Item {
     // Whether the places take all of its width.
     property bool spreads: false
     // Whether there is room for the two cards of a pair beside each other.
-    readonly property bool paired: spreads && pitch > 1.3 * slot
+    readonly property bool paired: grid.paired
     // How many of the pictures have arrived.
     required property int landed
     required property url back
     required property url shadow
 
-    readonly property int columns: Math.ceil(places / Math.max(1, lines))
-    // Some of the shelf is seen around the places.
-    readonly property real rim: spreads ? 0 : 0.1
-    readonly property real slot: Math.floor(Math.min(width / (Math.max(1, columns) + 2 * rim), height / Math.max(1, lines)))
+    // Whether it is about to get another size: then its places are laid out when it has that.
+    property bool resizes: false
+    readonly property var fitting: laidOut(places, width, height, lines, spreads)
+    property var grid: fitting
+    onFittingChanged: if (!resizes) grid = fitting
+    onResizesChanged: if (!resizes) grid = fitting
+    function laidOut(places: int, width: real, height: real, lines: int, spreads: bool): var {
+        const columns = Math.ceil(places / Math.max(1, lines))
+        // Some of the shelf is seen around the places.
+        const rim = spreads ? 0 : 0.1
+        const slot = Math.floor(Math.min(width / (Math.max(1, columns) + 2 * rim), height / Math.max(1, lines)))
+        const pitch = spreads ? width / Math.max(1, columns) : slot
+        return { width, height, lines, columns, rim, slot, pitch, paired: spreads && pitch > 1.3 * slot }
+    }
+    readonly property real slot: grid.slot
 
     // A whole number, as the board loads them beforehand.
-    readonly property int card: Math.round(slot * (paired ? 0.8 : 0.76))
+    readonly property int card: Math.round(grid.slot * (grid.paired ? 0.8 : 0.76))
     // How far one card of a pair lies from the middle of its place, where they lie on each other.
-    readonly property real behind: Math.max(1, Math.round(0.03 * slot))
-    readonly property real pitch: spreads ? width / Math.max(1, columns) : slot
+    readonly property real behind: Math.max(1, Math.round(0.03 * grid.slot))
 
     // Where the picture with this number lies, in the tray.
     function middle(number: int): point {
+        const { width, height, columns, lines, pitch, slot } = grid
         return Qt.point((width - pitch * columns) / 2 + (number % columns + 0.5) * pitch,
                         (height - slot * lines) / 2 + (Math.floor(number / columns) + 0.5) * slot)
     }
@@ -39,8 +50,8 @@ Item {
     Rectangle {
         anchors.centerIn: parent
         visible: tray.places > 0
-        width: tray.spreads ? tray.width : (tray.columns + 2 * tray.rim) * tray.slot
-        height: Math.min(tray.slot * tray.lines + 0.2 * tray.slot, tray.height + (tray.spreads ? 12 : 0) * Theme.unit)
+        width: tray.spreads ? tray.width : (tray.grid.columns + 2 * tray.grid.rim) * tray.slot
+        height: Math.min(tray.slot * tray.grid.lines + 0.2 * tray.slot, tray.height + (tray.spreads ? 12 : 0) * Theme.unit)
         radius: 0.24 * tray.slot
         color: Theme.shelf
         border { color: Theme.edge; width: Theme.highContrast ? 2 * Theme.unit : 0 }
@@ -54,7 +65,7 @@ Item {
             readonly property point centre: tray.middle(index)
             x: centre.x - width / 2
             y: centre.y - tray.slot / 2
-            width: tray.paired ? Math.min(tray.pitch - 14 * Theme.unit, 2.1 * tray.slot) : tray.slot
+            width: tray.paired ? Math.min(tray.grid.pitch - 14 * Theme.unit, 2.1 * tray.slot) : tray.slot
             height: tray.slot
             // How far the two cards of a pair lie from its middle, where they lie side by side.
             readonly property real aside: Math.max(0.05 * tray.slot, Math.min(0.5 * tray.card + 0.03 * tray.slot, (width - tray.card) / 2 - 0.09 * tray.slot))

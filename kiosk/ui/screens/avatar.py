@@ -26,7 +26,9 @@ class AvatarScreen(QObject):
     """What the avatar looks like at this moment."""
 
     changed = Signal()
-    """It came, went, or got a name; apart from the next four, because the whole layout follows."""
+    """It came, went, or got a name; apart from the next five, because the whole layout follows."""
+    moved = Signal()
+    """It begins to come or go, or has done so: what follows it is laid out once, when it is there."""
     felt = Signal()
     """It shows another mood."""
     said = Signal()
@@ -41,6 +43,7 @@ class AvatarScreen(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._present = True
+        self._moves = False
         self._mood = Mood.IDLE
         self._bubble = ""
         self._ponders = False
@@ -76,8 +79,12 @@ class AvatarScreen(QObject):
 
     def appear(self, *, present: bool) -> None:
         """Show the face, or leave the place to another body; the bubble stays."""
+        self._moves = True
+        self.moved.emit()
         self._present = present
         self.changed.emit()
+        self._moves = False
+        self.moved.emit()
 
     def express(self, mood: Mood) -> None:
         """Show a mood."""
@@ -132,6 +139,11 @@ class AvatarScreen(QObject):
     def present(self) -> bool:
         """Whether the face is shown."""
         return self._present
+
+    @Property(bool, notify=moved)
+    def moves(self) -> bool:
+        """Whether it comes or goes at this moment."""
+        return self._moves
 
     @Property(str, notify=felt)
     def mood(self) -> str:
