@@ -275,15 +275,18 @@ PageFrame {
             pane.turn(event)
     }
 
+    // Where keys over an upright page end above their card or begin below it, and how much height there is below it.
+    readonly property real padOver: keyboard.card === null ? 0 : begin + home.y + keyboard.card.mapToItem(home, 0, 0).y - keyboard.away
+    readonly property real padUnder: padOver + (keyboard.card?.height ?? 0) + 2 * keyboard.away
+    readonly property real underRoom: foot - Theme.gap - padUnder
     // Where the keys of a number stand. On an upright page: below the card of their field, or above it, over other cards.
     // On a wide one: in the helper's place, in the margin, or below everything; they cover no answer unless there is no
     // such place.
-    readonly property real padOver: keyboard.card === null ? 0 : begin + home.y + keyboard.card.mapToItem(home, 0, 0).y - keyboard.away
-    readonly property real padUnder: padOver + (keyboard.card?.height ?? 0) + 2 * keyboard.away
     function padPlace(wide: real, tall: real): point {
         if (upright) {
             const edge = (width - column) / 2, across = Math.max(edge, Math.min(width - edge - wide, keyboard.aim.x - wide / 2))
-            return Qt.point(across, padUnder + tall <= height ? padUnder : Math.max(0, padOver - tall))
+            const under = keyboard.grand ? keyboard.open === underRoom : padUnder + tall <= height
+            return Qt.point(across, under ? padUnder : Math.max(0, padOver - tall))
         }
         const after = Window.width - before - width
         const beside = keyboard.field === null ? 0
@@ -445,8 +448,8 @@ PageFrame {
         spare: view.upright ? view.column
              : view.accompanied ? Window.width - view.before - view.width - Theme.gap : 0
         away: view.upright ? Math.min(36 * Theme.unit, pane.spacing) : x < 0 ? (view.width - view.column) / 2 - x - width : x - (view.width + view.column) / 2
-        open: Math.max(view.foot - Theme.gap - view.padUnder, view.padOver - view.begin)
-        covers: view.begin + home.y + home.height - view.padUnder
+        open: view.underRoom >= 684 * Theme.unit ? view.underRoom : Math.max(view.underRoom, view.padOver - view.begin)
+        covers: open === view.underRoom ? view.begin + home.y + home.height - view.padUnder : open
         near: (card as FormItem)?.inline ?? false
         // The end of an empty field, where it is once something is typed. Its place in its row is named: it changes then.
         aim: {

@@ -37,14 +37,14 @@ Rectangle {
     property string shown: "letters"
     readonly property bool numbers: field !== null && field.digits
     // Whether a number's keys stand in rows of three across an upright screen's width, or in two rows where height lacks.
-    readonly property bool grand: numbers && broad && open >= (field?.minus ? 652 : 544) * Theme.unit
+    readonly property bool grand: numbers && broad && open >= 544 * Theme.unit
     readonly property bool flat: numbers && broad && !grand && !field?.minus
     readonly property bool wideKeys: grand || numbers && roomy
     // Whether the word that ends typing has room beside the 0, as on a telephone's keys.
     readonly property bool ends: wideKeys && !field?.minus && ending.width + 28 * Theme.unit <= keyWidth
     readonly property var rows: flat ? ["12345", "67890"] : numbers ? ["123", "456", "789", ends ? "⌫0✓" : `${field?.minus ? "-" : ""}0⌫`] : form.keys[shown]
     readonly property int longest: Math.max(10, ...rows.map(row => row.length))
-    readonly property real gap: (grand ? 20 : wideKeys ? 16 : flat ? 12 : 8) * Theme.unit
+    readonly property real gap: (grand ? 20 : wideKeys && !field?.minus ? 16 : wideKeys || flat ? 12 : 8) * Theme.unit
     // How far the keys are from the edge that is drawn around a number's.
     readonly property real margin: wideKeys ? gap + border.width : flat ? 16 * Theme.unit : 0.6 * Theme.gap
     readonly property real room: parent.width
@@ -55,7 +55,7 @@ Rectangle {
     readonly property real keyWidth: numbers ? flat ? fitting(spare - 190 * Theme.unit - gap, 5, 90, 160)
         : grand ? fitting(spare, 3, 108, 420) : broad ? 150 * Theme.unit : roomy ? fitting(spare, 3, 108, 160) : 80 * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
     readonly property real keyHeight: grand ? Math.min(270 * Theme.unit, Math.floor((tall - 2 * margin + gap) / (ends ? 4 : 5) - gap))
-        : (numbers ? (flat ? 140 : roomy ? (ends ? 80 : 68) : 68) : 60) * Theme.unit
+        : (numbers ? (flat ? 140 : roomy ? (ends ? 80 : 64) : 68) : 60) * Theme.unit
     // How high large keys are with their edge: they end where the cards do, and cut none of these.
     readonly property real tall: Math.min(open, Math.max(covers, 684 * Theme.unit))
     // How large the words of a number's keys are.
