@@ -16,7 +16,9 @@ Item {
     required property int places
 
     readonly property real spacing: 12 * Theme.unit
-    readonly property real step: 68 * Theme.unit + spacing
+    // A column has room for larger ones than a row, unless larger texts need it.
+    readonly property real size: (places === 1 && Theme.textSize <= 1 ? 80 : 68) * Theme.unit
+    readonly property real step: size + spacing
     // How much further from the others the one stands that ends everything.
     readonly property real apart: kiosk.inSession ? 12 * Theme.unit : 0
     readonly property bool translated: kiosk.inSession && kiosk.languages.length > 1
@@ -48,6 +50,7 @@ Item {
         required property int at
         readonly property int nth: corner.before(at)
         visible: corner.shown[at]
+        width: corner.size
         readonly property real past: at > 0 ? corner.apart : 0
         x: corner.width - nth % corner.places * corner.step - width - (corner.places > 1 && nth < corner.places ? past : 0)
         y: corner.places === 1 ? corner.height - nth * corner.step - height - past : Math.floor(nth / corner.places) * corner.step
