@@ -26,7 +26,7 @@ Button {
     property int alignment: Text.AlignHCenter
     // The lines of a small drawing before its words, on a square of 24; none without.
     property string drawing: ""
-    readonly property real sign: drawing === "" ? 0 : 1.45 * font.pixelSize
+    property real sign: drawing === "" ? 0 : 1.45 * font.pixelSize
     property color front: solid ? Theme.white : enabled ? tone : Theme.faintInk
 
     width: Math.min(Math.ceil(implicitWidth), parent?.width ?? Infinity)

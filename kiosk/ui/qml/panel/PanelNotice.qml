@@ -137,11 +137,12 @@ Rectangle {
                         width: Math.min(Math.ceil(implicitWidth), own.width)
                         enabled: notice.panel.choices.backup === ""
                         least: 68 * Theme.unit
-                        topInset: 12 * Theme.unit
+                        topInset: (Theme.upright ? 8 : 12) * Theme.unit
                         bottomInset: topInset
                         ground: Theme.white
                         words: notice.due?.remedy ?? ""
                         drawing: "M8.5 8 H20 V21 H8.5 Z M5 16 H4 V3 H15.5 V4.5"
+                        sign: 1.2 * notice.written
                         font.pixelSize: notice.written
                         onClicked: notice.panel.wish("backup", "")
                     }

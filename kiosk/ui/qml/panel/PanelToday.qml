@@ -33,7 +33,7 @@ Item {
     readonly property bool calm: !wide && Theme.textSize <= 1.15 && panel.health.matters.length < 4 && panel.alarms.length === 0 && panel.records.resumable.length === 0 && !panel.choices.canBeNext && !(panel.choices.onBreak ?? false)
     readonly property real spread: calm ? Math.floor(Math.max(0, Math.min(24 * Theme.unit, (seen - first.height - (1190 + 66 * rows) * Theme.unit) / (rows + 9)))) : 0
     // Words that need more lines than usual take what they lack from between the checks.
-    readonly property real lack: wide ? 0 : Math.max(-12 * Theme.unit, Math.min(0, (seen - first.height - (1080 + 66 * rows) * Theme.unit) / 2))
+    readonly property real lack: wide ? 0 : Math.max(-14 * Theme.unit, Math.min(0, (seen - first.height - (1080 + 66 * rows) * Theme.unit) / 2))
 
     // On an upright screen all second columns begin in line, and with them the fourth of the grid that both tables share.
     readonly property real gutter: Math.round(40 * Theme.unit)
