@@ -51,27 +51,49 @@ def write_until(booth: Booth, over: Callable[[], bool]) -> None:
             runner.dispatch(kind(at_ms=runner.now_ms()))
 
 
+def fill_in(booth: Booth, disk: SmallDisk, stage: Stage) -> None:
+    """Bring a visitor to this stage, let the disk fill up there, and wait until it has room and the kiosk is free."""
+    go_to(booth.app, stage)
+    disk.fill()
+    write_until(booth, lambda: booth.screen == "pause")
+    disk.empty()
+    booth.wait_until(lambda: booth.screen == "attract")
+
+
+def stored_of(booth: Booth, last: int) -> list[Status | None]:
+    """Return how the last sessions ended, once none of them lacks a record."""
+    with open_repository(booth.data) as stored:
+        sessions = stored.sessions()[-last:]
+        for session in sessions:
+            records = stored.records(session.id)
+            assert [record["seq"] for record in records] == [*range(1, len(records) + 1)]
+    return [session.status for session in sessions]
+
+
+# The visitor of the next stage comes through all stages before it, after the failure in the last one.
 @pytest.mark.parametrize("stage", KEPT, ids=lambda stage: stage.value)
 def test_a_full_disk_in_any_stage_is_calm_for_the_visitor_and_told_in_the_log(
     booth: Booth, disk: SmallDisk, stage: Stage, caplog: pytest.LogCaptureFixture
 ) -> None:
-    go_to(booth.app, stage)
-    disk.fill()
-    write_until(booth, lambda: booth.screen == "pause")
+    fill_in(booth, disk, stage)
     [told] = caplog.messages
     assert "disk full" in told
     with closing(sqlite3.connect(booth.data / FILE)) as database:
         assert database.execute("PRAGMA integrity_check").fetchall() == [("ok",)]
-    disk.empty()
-    booth.wait_until(lambda: booth.screen == "attract")
+    # How the last one ended is written once there is another.
+    *before, last = stored_of(booth, last=2)
+    assert set(before) <= {Status.INTERRUPTED}
+    assert last is None
+    caplog.clear()
+
+
+def test_the_visitor_after_a_full_disk_comes_to_the_end(
+    booth: Booth, disk: SmallDisk, caplog: pytest.LogCaptureFixture
+) -> None:
+    fill_in(booth, disk, Stage.GAME)
     booth.click("start-en")
     go_on_to_the_end(booth.app)
-    with open_repository(booth.data) as stored:
-        last = stored.sessions()[-2:]
-        assert [session.status for session in last] == [Status.INTERRUPTED, Status.COMPLETED]
-        for session in last:
-            records = stored.records(session.id)
-            assert [record["seq"] for record in records] == [*range(1, len(records) + 1)]
+    assert stored_of(booth, last=2) == [Status.INTERRUPTED, Status.COMPLETED]
     caplog.clear()
 
 
