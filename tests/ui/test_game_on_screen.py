@@ -42,18 +42,41 @@ def moves(request: pytest.FixtureRequest) -> bool:
     return bool(request.param)
 
 
+def in_a_game(app: App) -> App:
+    """Return this kiosk in the middle of a game."""
+    app.screens.board.deal(4, 6, 12, "animals")
+    app.screens.kiosk.show("game")
+    app.screens.kiosk.end_input_guard()
+    lay_out(app.window)
+    return app
+
+
 @pytest.fixture
 def app(qapp: object, tmp_path: Path, moves: bool) -> Iterator[App]:  # noqa: ARG001, FBT001 - fixtures
     """Provide a kiosk in the middle of a game, which moves or stands still."""
     with headless(QUIET[moves], tmp_path, mode=MOVING) as opened:
-        opened.screens.board.deal(4, 6, 12, "animals")
-        opened.screens.kiosk.show("game")
-        opened.screens.kiosk.end_input_guard()
-        lay_out(opened.window)
+        yield in_a_game(opened)
+
+
+@pytest.fixture(scope="module", params=["wide"])
+def calm(request: pytest.FixtureRequest, qapp: object, tmp_path_factory: pytest.TempPathFactory) -> Iterator[App]:  # noqa: ARG001 - Qt is to be there
+    """Provide one kiosk in this layout that stands still, for all tests that begin no session."""
+    with headless(QUIET[False], tmp_path_factory.mktemp("calm"), mode=MOVING) as opened:
+        if request.param == "upright":
+            resize(opened.window, request.param)
         yield opened
 
 
-STILL = pytest.mark.parametrize("moves", [False], indirect=True)
+@pytest.fixture
+def still(calm: App) -> App:
+    """Return that kiosk in the middle of a new game, with nothing left of the test before."""
+    calm.screens.clear()
+    calm.screens.avatar.appear(present=True)
+    calm.screens.kiosk.pause(paused=False)
+    return in_a_game(calm)
+
+
+UPRIGHT = pytest.mark.parametrize("calm", ["upright"], indirect=True)
 
 
 def find(app: App, name: str) -> QQuickItem:
@@ -144,13 +167,12 @@ def test_a_tap_that_does_not_count_is_answered_in_the_next_frame(app: App, why: 
 
 
 # A card that moves cannot be held half way.
-@STILL
-def test_a_turning_card_is_as_wide_as_its_shadow(app: App) -> None:
+def test_a_turning_card_is_as_wide_as_its_shadow(still: App) -> None:
     """No slab of shadow stands where a narrow card is: half way, left and right of its edge there is only paper."""
-    face = next(i for i in items(find(app, "card-8")) if i.metaObject().className().startswith("CardFace"))
-    paper = app.window.grabWindow().pixelColor(3, 3)
+    face = next(i for i in items(find(still, "card-8")) if i.metaObject().className().startswith("CardFace"))
+    paper = still.window.grabWindow().pixelColor(3, 3)
     face.setProperty("turn", 0.5)
-    picture = looks(app, "card-8")
+    picture = looks(still, "card-8")
     middle = picture.height() // 2
     for across in (0.2, 0.35, 0.65, 0.8):
         assert picture.pixelColor(int(picture.width() * across), middle) == paper, across
@@ -312,34 +334,32 @@ def test_the_helper_has_the_name_of_the_study_file_and_may_have_none(app: App, q
 GONE = (Position(0, 0), Position(0, 1))
 
 
-@STILL
-def test_a_hint_is_announced_only_until_it_is_read_or_seen(app: App) -> None:
+def test_a_hint_is_announced_only_until_it_is_read_or_seen(still: App) -> None:
     def announced() -> bool:
-        return find_item(app.window.contentItem(), "pill") is not None
+        return find_item(still.window.contentItem(), "pill") is not None
 
-    board = app.screens.board
+    board = still.screens.board
     assert not announced()
     board.lock(BoardWait.SPEAKING)
     assert announced()
-    app.screens.avatar.say("Look at column 2.")
+    still.screens.avatar.say("Look at column 2.")
     assert not announced()
-    app.screens.avatar.say("")
+    still.screens.avatar.say("")
     board.highlight(None, 1)
     assert not announced()
-    app.screens.avatar.say("Let us practise first.")
+    still.screens.avatar.say("Let us practise first.")
     board.lock(BoardWait.TURNING_BACK)
     assert announced()
 
 
-@STILL
-def test_cards_that_are_no_pair_are_framed_until_they_turn_back(app: App) -> None:
+def test_cards_that_are_no_pair_are_framed_until_they_turn_back(still: App) -> None:
     def framed() -> list[int]:
-        return [n for n in range(24) if find_item(app.window.contentItem(), f"missed-{n}") is not None]
+        return [n for n in range(24) if find_item(still.window.contentItem(), f"missed-{n}") is not None]
 
     def rimmed() -> list[int]:
-        return [n for n in range(24) if find_item(find(app, f"card-{n}"), "rim") is not None]
+        return [n for n in range(24) if find_item(find(still, f"card-{n}"), "rim") is not None]
 
-    board = app.screens.board
+    board = still.screens.board
     for position, card in zip(CAT, ("cat", "owl"), strict=True):
         board.reveal(position, card)
     assert framed() == []
@@ -353,51 +373,48 @@ def test_cards_that_are_no_pair_are_framed_until_they_turn_back(app: App) -> Non
     assert (framed(), rimmed()) == ([], [board.location(CAT[0])])
 
 
-@STILL
-def test_the_first_sentence_of_a_practice_goes_with_the_first_pair_and_can_be_heard_again(app: App) -> None:
+def test_the_first_sentence_of_a_practice_goes_with_the_first_pair_and_can_be_heard_again(still: App) -> None:
     def said() -> list[str]:
-        bubbles = (i for i in items(app.window.contentItem()) if lies_in(i, "Bubble"))
+        bubbles = (i for i in items(still.window.contentItem()) if lies_in(i, "Bubble"))
         return [i.property("text") for i in bubbles if i.property("text") and i.property("text") != "Memo"]
 
     def cheers() -> bool:
-        bubbles = (i for i in items(app.window.contentItem()) if lies_in(i, "Bubble"))
+        bubbles = (i for i in items(still.window.contentItem()) if lies_in(i, "Bubble"))
         return [i.property("font").bold() for i in bubbles if [i.property("text")] == said()] == [True]
 
-    board, avatar = app.screens.board, app.screens.avatar
+    board, avatar = still.screens.board, still.screens.avatar
     board.deal(3, 4, 6, "animals", practice=True)
-    app.screens.kiosk.show("practice")
+    still.screens.kiosk.show("practice")
     avatar.say("Let us practise first.")
     assert (said(), cheers()) == (["Let us practise first."], False)
     board.mark_matched(GONE)
     assert (said(), cheers()) == (["A pair!"], True)
-    app.screens.kiosk.sayAgain()
+    still.screens.kiosk.sayAgain()
     assert (said(), cheers()) == (["Let us practise first."], False)
     avatar.say("Look at column 2.")
     assert (said(), cheers()) == (["Look at column 2."], False)
 
 
-@STILL
-def test_the_helper_says_whose_turn_it_is_until_a_card_is_turned(app: App) -> None:
+def test_the_helper_says_whose_turn_it_is_until_a_card_is_turned(still: App) -> None:
     def said() -> list[str]:
-        bubbles = (i for i in items(app.window.contentItem()) if lies_in(i, "Bubble"))
+        bubbles = (i for i in items(still.window.contentItem()) if lies_in(i, "Bubble"))
         return [i.property("text") for i in bubbles if i.property("text") and i.property("text") != "Memo"]
 
-    app.screens.board.deal(3, 4, 6, "animals")
-    app.screens.kiosk.show("game")
+    still.screens.board.deal(3, 4, 6, "animals")
+    still.screens.kiosk.show("game")
     assert said() == ["It is your turn. Turn over any card."]
-    app.screens.board.reveal(Position(0, 0), "cat")
+    still.screens.board.reveal(Position(0, 0), "cat")
     assert said() == []
 
 
-@STILL
-def test_while_one_card_is_up_and_the_helper_is_silent_the_screen_asks_for_a_second(app: App) -> None:
+def test_while_one_card_is_up_and_the_helper_is_silent_the_screen_asks_for_a_second(still: App) -> None:
     def asked() -> bool:
-        pill = find_item(app.window.contentItem(), "pill")
+        pill = find_item(still.window.contentItem(), "pill")
         return pill is not None and any(i.property("text") == "Now a second card" for i in items(pill))
 
-    board, avatar = app.screens.board, app.screens.avatar
+    board, avatar = still.screens.board, still.screens.avatar
     board.deal(3, 4, 6, "animals")
-    app.screens.kiosk.show("game")
+    still.screens.kiosk.show("game")
     assert not asked()
     board.reveal(Position(0, 0), "cat")
     assert asked()
@@ -412,12 +429,11 @@ def test_while_one_card_is_up_and_the_helper_is_silent_the_screen_asks_for_a_sec
     assert not asked()
 
 
-@STILL
-def test_in_a_practice_the_helper_tells_how_a_move_goes_on(app: App) -> None:
+def test_in_a_practice_the_helper_tells_how_a_move_goes_on(still: App) -> None:
     def said() -> set[str]:
-        return {str(i.property("text")) for i in items(app.window.contentItem()) if i.property("text")}
+        return {str(i.property("text")) for i in items(still.window.contentItem()) if i.property("text")}
 
-    board, screens = app.screens.board, app.screens
+    board, screens = still.screens.board, still.screens
     board.deal(3, 4, 6, "animals", practice=True)
     screens.kiosk.show("practice")
     board.reveal(Position(0, 0), "cat")
@@ -439,17 +455,16 @@ def test_in_a_practice_the_helper_tells_how_a_move_goes_on(app: App) -> None:
     assert "A pair!" not in said()
 
 
-@STILL
-def test_a_pair_keeps_its_size_until_another_card_is_turned(app: App) -> None:
-    board = app.screens.board
+def test_a_pair_keeps_its_size_until_another_card_is_turned(still: App) -> None:
+    board = still.screens.board
     for position in GONE:
         board.reveal(position, "cat")
     board.mark_matched(GONE)
-    large = [find(app, f"card-{board.location(position)}") for position in GONE]
+    large = [find(still, f"card-{board.location(position)}") for position in GONE]
     assert [card.property("fresh") for card in large] == [1, 1]
     for card, position in zip(large, GONE, strict=True):
         # Two frames beside each other have some of the page between them.
-        assert find(app, f"found-{board.location(position)}").property("width") < 0.96 * card.property("width")
+        assert find(still, f"found-{board.location(position)}").property("width") < 0.96 * card.property("width")
     board.reveal(Position(1, 0), "owl")
     assert [card.property("fresh") for card in large] == [0, 0]
 
@@ -468,118 +483,103 @@ def test_snippets_of_the_feast_never_fall_in_one_line(app: App) -> None:
         assert fullest < len(seen) / 3, moment
 
 
-@STILL
-def test_on_an_upright_screen_the_helper_stands_close_to_the_board(app: App) -> None:
-    resize(app.window, "upright")
-    lay_out(app.window)
-    board, face = find(app, "board"), find(app, "face")
+@UPRIGHT
+def test_on_an_upright_screen_the_helper_stands_close_to_the_board(still: App) -> None:
+    board, face = find(still, "board"), find(still, "face")
     bottom = board.mapToScene(board.boundingRect().bottomLeft()).y()
     top = face.mapToScene(face.boundingRect().topLeft()).y()
-    assert bottom < top < bottom + 0.25 * app.window.height()
+    assert bottom < top < bottom + 0.25 * still.window.height()
 
 
-@STILL
-def test_on_an_upright_screen_the_columns_numbers_stand_nearer_to_the_cards_than_to_the_tray(app: App) -> None:
-    resize(app.window, "upright")
-    lay_out(app.window)
-    shown = list(items(app.window.contentItem()))
+@UPRIGHT
+def test_on_an_upright_screen_the_columns_numbers_stand_nearer_to_the_cards_than_to_the_tray(still: App) -> None:
+    shown = list(items(still.window.contentItem()))
     tray = max(place(item).bottom() for item in shown if lies_in(item, "Tray"))
     number = painted(min((item for item in shown if item.property("text") == "1"), key=lambda item: place(item).top()))
-    assert number.top() - tray > place(find(app, "card-0")).top() - number.bottom() > 0
+    assert number.top() - tray > place(find(still, "card-0")).top() - number.bottom() > 0
 
 
-@STILL
-def test_on_an_upright_screen_the_tray_is_as_wide_as_the_cards_with_their_rows_numbers(app: App) -> None:
-    resize(app.window, "upright")
-    lay_out(app.window)
-    tray = place(next(item for item in items(app.window.contentItem()) if lies_in(item, "Tray")))
-    first, last = place(find(app, "card-0")), place(find(app, "card-5"))
+@UPRIGHT
+def test_on_an_upright_screen_the_tray_is_as_wide_as_the_cards_with_their_rows_numbers(still: App) -> None:
+    tray = place(next(item for item in items(still.window.contentItem()) if lies_in(item, "Tray")))
+    first, last = place(find(still, "card-0")), place(find(still, "card-5"))
     number = painted(
-        max((i for i in items(app.window.contentItem()) if i.property("text") == "1"), key=lambda i: place(i).top())
+        max((i for i in items(still.window.contentItem()) if i.property("text") == "1"), key=lambda i: place(i).top())
     )
-    assert abs(tray.left() - 20 * app.window.width() / 1080) < 4
+    assert abs(tray.left() - 20 * still.window.width() / 1080) < 4
     assert tray.left() <= number.left() < number.right() < first.left()
     assert last.center().x() < tray.right() <= last.right()
     assert tray.height() / 2 < 0.75 * first.height()
 
 
-@STILL
-def test_on_an_upright_screen_two_rows_of_pairs_side_by_side_make_no_card_smaller(app: App) -> None:
-    resize(app.window, "upright")
-    lay_out(app.window)
-    tray = next(item for item in items(app.window.contentItem()) if lies_in(item, "Tray"))
-    board = next(item for item in items(app.window.contentItem()) if lies_in(item, "BoardView"))
+@UPRIGHT
+def test_on_an_upright_screen_two_rows_of_pairs_side_by_side_make_no_card_smaller(still: App) -> None:
+    tray = next(item for item in items(still.window.contentItem()) if lies_in(item, "Tray"))
+    board = next(item for item in items(still.window.contentItem()) if lies_in(item, "BoardView"))
     assert (tray.property("lines"), tray.property("paired")) == (2, True)
     assert board.property("cell") == int(board.property("widest"))
 
 
-@STILL
-@pytest.mark.parametrize("layout", ["wide", "upright"])
-def test_no_control_moves_when_a_sentence_can_be_heard_again(app: App, layout: str) -> None:
-    app.screens.kiosk.begin(["en"], "en", QUIET[False].consent)
-    resize(app.window, layout)
-    lay_out(app.window)
-    stop = find(app, "control-stop")
+@pytest.mark.parametrize("calm", ["upright", "wide"], indirect=True)
+def test_no_control_moves_when_a_sentence_can_be_heard_again(still: App) -> None:
+    still.screens.kiosk.begin(["en"], "en", QUIET[False].consent)
+    lay_out(still.window)
+    stop = find(still, "control-stop")
     before = place(stop)
-    app.screens.avatar.say("Look at column 2.")
-    lay_out(app.window)
-    assert find(app, "control-say-again").isVisible()
+    still.screens.avatar.say("Look at column 2.")
+    lay_out(still.window)
+    assert find(still, "control-say-again").isVisible()
     assert place(stop) == before
 
 
-@STILL
-def test_the_stop_button_is_in_the_corner_and_the_others_above_it_on_an_upright_screen(app: App) -> None:
-    app.screens.kiosk.begin(["en", "it"], "en", QUIET[False].consent)
-    app.screens.avatar.say("Look at column 2.")
-    resize(app.window, "upright")
-    lay_out(app.window)
+@UPRIGHT
+def test_the_stop_button_is_in_the_corner_and_the_others_above_it_on_an_upright_screen(still: App) -> None:
+    still.screens.kiosk.begin(["en", "it"], "en", QUIET[False].consent)
+    still.screens.avatar.say("Look at column 2.")
     names = ("control-say-again", "control-text-size", "control-language", "control-stop")
-    places = [place(find(app, name)) for name in names]
+    places = [place(find(still, name)) for name in names]
     assert places == sorted(places, key=lambda one: one.top())
     assert len({one.left() for one in places}) == 1
 
 
-@STILL
-def test_in_a_pause_the_helper_is_seen_with_its_eyes_shut_and_says_nothing(app: App) -> None:
-    app.screens.avatar.say("Look at column 2.")
-    app.screens.avatar.feel(Mood.HAPPY)
-    app.screens.kiosk.pause(paused=True)
-    face = find(app, "face")
+def test_in_a_pause_the_helper_is_seen_with_its_eyes_shut_and_says_nothing(still: App) -> None:
+    still.screens.avatar.say("Look at column 2.")
+    still.screens.avatar.feel(Mood.HAPPY)
+    still.screens.kiosk.pause(paused=True)
+    face = find(still, "face")
     assert (face.property("blinking"), face.property("mood")) == (True, "idle")
-    assert not [i for i in items(app.window.contentItem()) if lies_in(i, "Bubble") and i.property("text")]
-    app.screens.kiosk.pause(paused=False)
+    assert not [i for i in items(still.window.contentItem()) if lies_in(i, "Bubble") and i.property("text")]
+    still.screens.kiosk.pause(paused=False)
     assert not face.property("blinking")
 
 
-@STILL
-def test_the_last_pair_stays_forward_until_other_cards_are_dealt(app: App) -> None:
-    board = app.screens.board
+def test_the_last_pair_stays_forward_until_other_cards_are_dealt(still: App) -> None:
+    board = still.screens.board
     board.deal(2, 2, 2, "animals")
-    lay_out(app.window)
+    lay_out(still.window)
     for row, card in enumerate(("cat", "owl")):
         places = (Position(row, 0), Position(row, 1))
         for position in places:
             board.reveal(position, card)
         board.mark_matched(places)
-    assert [find(app, f"card-{i}").property("proud") for i in range(4)] == [0, 0, 1, 1]
+    assert [find(still, f"card-{i}").property("proud") for i in range(4)] == [0, 0, 1, 1]
     board.deal(2, 2, 2, "animals")
-    assert {find(app, f"card-{i}").property("proud") for i in range(4)} == {0}
+    assert {find(still, f"card-{i}").property("proud") for i in range(4)} == {0}
 
 
-@STILL
-def test_the_time_left_to_say_that_one_is_there_is_shown_where_it_is_known(app: App) -> None:
+def test_the_time_left_to_say_that_one_is_there_is_shown_where_it_is_known(still: App) -> None:
     def shows_time() -> bool:
-        return any(i.objectName() == "time-left" and i.isVisible() for i in items(app.window.contentItem()))
+        return any(i.objectName() == "time-left" and i.isVisible() for i in items(still.window.contentItem()))
 
-    kiosk = app.screens.kiosk
+    kiosk = still.screens.kiosk
     kiosk.ask_still_there(asks=True, wait_ms=20_000)
     assert shows_time()
-    seconds = find(app, "seconds-left")
+    seconds = find(still, "seconds-left")
     assert seconds.property("text") in {"20", "19"}
-    unit = find(app, "seconds-unit")
+    unit = find(still, "seconds-unit")
     assert unit.property("text") == "sec"
     # Nothing else of the page is as wide as what is to be pressed in a hurry.
-    assert place(find(app, "still-here")).width() > 0.5 * app.window.width()
+    assert place(find(still, "still-here")).width() > 0.5 * still.window.width()
     # A screen reader would speak every second.
     assert is_ignored(seconds)
     assert is_ignored(unit)
@@ -588,37 +588,34 @@ def test_the_time_left_to_say_that_one_is_there_is_shown_where_it_is_known(app: 
     assert not shows_time()
 
 
-@STILL
-def test_going_on_stands_where_the_way_on_does_and_has_the_keyboard(app: App) -> None:
-    app.screens.kiosk.ask("stop")
-    lay_out(app.window)
-    on, stop = find(app, "stop-no"), find(app, "stop-yes")
+def test_going_on_stands_where_the_way_on_does_and_has_the_keyboard(still: App) -> None:
+    still.screens.kiosk.ask("stop")
+    lay_out(still.window)
+    on, stop = find(still, "stop-no"), find(still, "stop-yes")
     assert place(on).left() > place(stop).right()
     assert on.property("focus")
 
 
-@STILL
-def test_behind_a_question_the_helper_is_calm(app: App) -> None:
-    app.screens.avatar.feel(Mood.HAPPY)
-    face = find(app, "face")
+def test_behind_a_question_the_helper_is_calm(still: App) -> None:
+    still.screens.avatar.feel(Mood.HAPPY)
+    face = find(still, "face")
     assert face.property("mood") == "happy"
-    app.screens.kiosk.ask("stop")
+    still.screens.kiosk.ask("stop")
     assert face.property("mood") == "idle"
-    app.screens.kiosk.ask("")
-    app.screens.kiosk.ask_still_there(asks=True)
+    still.screens.kiosk.ask("")
+    still.screens.kiosk.ask_still_there(asks=True)
     assert face.property("mood") == "idle"
 
 
-@STILL
-def test_dots_tell_how_far_a_visit_is(app: App) -> None:
-    kiosk = app.screens.kiosk
+def test_dots_tell_how_far_a_visit_is(still: App) -> None:
+    kiosk = still.screens.kiosk
     kiosk.begin(["en"], "en", QUIET[False].consent)
     kiosk.reach("about")
     assert (kiosk.property("step"), kiosk.property("steps")) == (0, 5)
     kiosk.reach("questions")
-    assert find(app, "progress").property("step") == 3
+    assert find(still, "progress").property("step") == 3
     kiosk.plan(("introduction", "game", "debrief"))
     kiosk.reach("result")
     assert (kiosk.property("step"), kiosk.property("steps")) == (1, 3)
     kiosk.clear()
-    assert find_item(app.window.contentItem(), "progress") is None
+    assert find_item(still.window.contentItem(), "progress") is None
