@@ -2,27 +2,22 @@
 
 from __future__ import annotations
 
+import ctypes
+import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
 from unittest.mock import patch
 
-from PySide6.QtCore import QMetaObject
-from PySide6.QtQml import QJSEngine, QQmlComponent, QQmlEngine
+from PySide6.QtCore import QTimer
 
 from kiosk.cli.main import main
 from kiosk.supervisor import Limits, guarded
 
 QUICK = Limits(silence=1, stuck=0.5)
-
-ENDLESS = b"""
-import QtQml
-Timer {
-    interval: 1
-    onTriggered: { console.log("stuck"); for (;;) {} }
-}
-"""
+LARGER_THAN_A_MUTEX = 256
+"""Bytes."""
 
 
 def fault(*_: object) -> None:
@@ -31,21 +26,23 @@ def fault(*_: object) -> None:
 
 
 def with_pythons_lock(*_: object) -> None:
-    """Evaluate a binding without an end from Python, which waits for it."""
-    engine = QJSEngine()
-    engine.installExtensions(QJSEngine.Extension.ConsoleExtension)
-    beats[-1]()
-    engine.evaluate("console.log('stuck'); for (;;) {}")
+    """Wait without an end, as a binding that never comes to its end lets Python wait."""
+    wait_for_ever(ctypes.PyDLL(None))
 
 
 def without_pythons_lock(*_: object) -> None:
-    """Evaluate the same out of Qt's own event loop."""
-    kept.append(engine := QQmlEngine())
-    kept.append(component := QQmlComponent(engine))
-    component.setData(ENDLESS, "")
-    kept.append(timer := component.create())
+    """Wait without an end where other threads of Python can go on."""
+    QTimer.singleShot(0, lambda: wait_for_ever(ctypes.CDLL(None)))
+
+
+def wait_for_ever(library: ctypes.CDLL) -> None:
+    """Lock a mutex twice, which no signal ends, and which takes no processor from the other tests."""
+    mutex = ctypes.create_string_buffer(LARGER_THAN_A_MUTEX)
+    library.pthread_mutex_init(mutex, None)
     beats[-1]()
-    QMetaObject.invokeMethod(timer, "start")
+    os.write(2, b"stuck\n")
+    for _ in range(2):
+        library.pthread_mutex_lock(mutex)
 
 
 @contextmanager
@@ -57,7 +54,6 @@ def heard(limits: Limits) -> Iterator[Callable[[], None]]:
 
 
 beats: list[Callable[[], None]] = []
-kept: list[object] = []
 WRONG: dict[str, Callable[..., None]] = {
     "fault": fault,
     "with lock": with_pythons_lock,
