@@ -165,22 +165,22 @@ def _numbers(model: type[BaseModel], path: tuple[str, ...] = ()) -> Iterator[tup
 
 
 @pytest.mark.parametrize("place", [place for place, _ in _numbers(Settings)], ids=".".join)
-@pytest.mark.parametrize("number", [10**30, -(10**30), float("inf"), float("-inf"), float("nan")])
-def test_every_number_has_bounds_and_a_sentence_that_names_them(place: tuple[str, ...], number: float) -> None:
+def test_every_number_has_bounds_and_a_sentence_that_names_them(place: tuple[str, ...]) -> None:
     default = dict(_numbers(Settings))[place]
-    value: object = number
-    if isinstance(default, tuple):
-        value = [number] * len(default)
-    elif isinstance(default, dict):
-        value = dict.fromkeys(default, number)
-    given: dict[str, object] = {place[-1]: value}
-    if len(place) > 1:
-        given = {place[0]: given}
-    with pytest.raises(ValidationError) as error:
-        Settings.model_validate(given)
-    for sentence in validation_messages(error.value, given, Settings):
-        assert sentence.startswith(".".join(place))
-        assert re.search(r"must be (a whole number|from \S+ to \S+)", sentence), sentence
+    for number in (10**30, -(10**30), float("inf"), float("-inf"), float("nan")):
+        value: object = number
+        if isinstance(default, tuple):
+            value = [number] * len(default)
+        elif isinstance(default, dict):
+            value = dict.fromkeys(default, number)
+        given: dict[str, object] = {place[-1]: value}
+        if len(place) > 1:
+            given = {place[0]: given}
+        with pytest.raises(ValidationError) as error:
+            Settings.model_validate(given)
+        for sentence in validation_messages(error.value, given, Settings):
+            assert sentence.startswith(".".join(place)), number
+            assert re.search(r"must be (a whole number|from \S+ to \S+)", sentence), (number, sentence)
 
 
 @pytest.mark.parametrize("hours", ["10-18", "18:00-10:00", "10:00-25:00", "10:00+01:00-18:00", "ten to six"])

@@ -46,7 +46,6 @@ def hint(
 EVERY_HINT = [
     hint(action, card, other, target) for action in HELP for card in FlipInMove for other, target in COUNTS[card]
 ]
-of_every_hint = pytest.mark.parametrize("given", EVERY_HINT, ids=lambda given: f"{reasoning(given)} {pointing(given)}")
 in_every_language = pytest.mark.parametrize("language", CATALOGUES.values(), ids=CATALOGUES.keys())
 
 
@@ -68,12 +67,12 @@ def catalogue(folder: Path, **files: str) -> Catalogue:
 
 
 @in_every_language
-@of_every_hint
-def test_every_hint_has_three_ways_to_be_said(language: Catalogue, given: Hint) -> None:
-    where = language.wordings(pointing(given), **place(given))
-    why = language.wordings(reasoning(given), **language.card("owl"))
-    assert len(set(where)) >= 3
-    assert len(set(why)) >= 3
+def test_every_hint_has_three_ways_to_be_said(language: Catalogue) -> None:
+    for given in EVERY_HINT:
+        where = language.wordings(pointing(given), **place(given))
+        why = language.wordings(reasoning(given), **language.card("owl"))
+        assert len(set(where)) >= 3, given
+        assert len(set(why)) >= 3, given
 
 
 @in_every_language
@@ -107,18 +106,18 @@ def test_every_reason_can_be_given_for_every_card(language: Catalogue, name: str
 
 
 @in_every_language
-@of_every_hint
-def test_a_sentence_gives_away_no_more_of_the_place_than_the_action(language: Catalogue, given: Hint) -> None:
-    for wording in language.wordings(pointing(given), **place(given)):
-        assert ("3" in wording) is (given.row is not None)
-        assert ("6" in wording) is (given.column is not None)
+def test_a_sentence_gives_away_no_more_of_the_place_than_the_action(language: Catalogue) -> None:
+    for given in EVERY_HINT:
+        for wording in language.wordings(pointing(given), **place(given)):
+            assert ("3" in wording) is (given.row is not None), wording
+            assert ("6" in wording) is (given.column is not None), wording
 
 
 @in_every_language
-@of_every_hint
-def test_a_reason_gives_away_no_place(language: Catalogue, given: Hint) -> None:
-    for wording in language.wordings(reasoning(given), **language.card("owl")):
-        assert not re.search(r"\d|\brow\b|\bcolumn\b", wording)
+def test_a_reason_gives_away_no_place(language: Catalogue) -> None:
+    for given in EVERY_HINT:
+        for wording in language.wordings(reasoning(given), **language.card("owl")):
+            assert not re.search(r"\d|\brow\b|\bcolumn\b", wording)
 
 
 @in_every_language
@@ -212,20 +211,20 @@ def test_a_message_with_one_wording_says_it_again(tmp_path: Path) -> None:
     assert [wording.say("only") for _ in range(3)] == ["Again."] * 3
 
 
-@of_every_hint
-def test_plain_sentences_say_only_where(given: Hint) -> None:
-    sentence = PlainSentences(Wording(ENGLISH, Random(1))).sentence(given)
-    assert sentence in ENGLISH.wordings(pointing(given), **place(given))
+def test_plain_sentences_say_only_where() -> None:
+    for given in EVERY_HINT:
+        sentence = PlainSentences(Wording(ENGLISH, Random(1))).sentence(given)
+        assert sentence in ENGLISH.wordings(pointing(given), **place(given))
 
 
-@of_every_hint
-def test_reasoned_sentences_say_why_and_then_where(given: Hint) -> None:
-    sentence = ReasonedSentences(Wording(ENGLISH, Random(1))).sentence(given)
-    assert sentence in {
-        f"{why} {where}"
-        for why in ENGLISH.wordings(reasoning(given), card="owl")
-        for where in ENGLISH.wordings(pointing(given), **place(given))
-    }
+def test_reasoned_sentences_say_why_and_then_where() -> None:
+    for given in EVERY_HINT:
+        sentence = ReasonedSentences(Wording(ENGLISH, Random(1))).sentence(given)
+        assert sentence in {
+            f"{why} {where}"
+            for why in ENGLISH.wordings(reasoning(given), card="owl")
+            for where in ENGLISH.wordings(pointing(given), **place(given))
+        }
 
 
 # The catalogue
@@ -314,9 +313,9 @@ def test_a_card_without_a_name_goes_by_its_file_in_every_form(tmp_path: Path) ->
     assert language.card("yak") == {"card": "yak", "card-the": "yak"}
 
 
-@of_every_hint
-def test_all_that_could_be_said_holds_what_is_said(given: Hint) -> None:
-    for kind in (PlainSentences, ReasonedSentences):
+@pytest.mark.parametrize("kind", [PlainSentences, ReasonedSentences])
+def test_all_that_could_be_said_holds_what_is_said(kind: type[PlainSentences | ReasonedSentences]) -> None:
+    for given in EVERY_HINT:
         sentences = kind(Wording(ENGLISH, Random(1)))
         assert {sentences.sentence(given) for _ in range(12)} <= set(sentences.all_wordings(given))
 

@@ -175,14 +175,14 @@ def at(driver: Driver, event: happened.WorldEvent) -> happened.WorldEvent:
 
 
 @pytest.mark.parametrize("stage", LONG_ENOUGH)
-@pytest.mark.parametrize("event", TAPS, ids=lambda event: type(event).__name__)
-def test_while_the_session_is_paused_a_visitor_can_do_nothing(stage: Stage, event: happened.WorldEvent) -> None:
+def test_while_the_session_is_paused_a_visitor_can_do_nothing(stage: Stage) -> None:
     driver = driven_to(stage, LASTING)
     assert do.ShowPause() in driver.pause().effects
     steps = len(driver.steps)
-    with pytest.raises(InvalidTransition):
-        driver.send(at(driver, event))
-    assert (driver.stage, driver.view.paused, len(driver.steps)) == (stage, True, steps)
+    for event in TAPS:
+        with pytest.raises(InvalidTransition):
+            driver.send(at(driver, event))
+        assert (driver.stage, driver.view.paused, len(driver.steps)) == (stage, True, steps), event
 
 
 @pytest.mark.parametrize("stage", LONG_ENOUGH)
