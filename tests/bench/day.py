@@ -4,7 +4,8 @@ It prints how much memory and how many handles each session leaves behind, with 
 the event loop keeps anything waiting in real time; and which share of a core the start screen and a game at rest take.
 Shares, memory and work are those of this process alone, so other programs change them little. They do change a gap, as
 does whatever the machine stands on. So gaps are printed as they are, and less what was taken from this thread: its wait
-for a processor, or the time in which a program that only sleeps was not woken either, whichever is longer.
+for a processor, or the time in which programs that only sleep, one on each processor, were not woken either. The longer
+of the two counts.
 """
 
 from __future__ import annotations
@@ -56,6 +57,8 @@ class Gap:
     end: float
     late: float
     worked: float
+    beside: float
+    """What the other threads of the program worked, in ms."""
     queued: float
 
 
@@ -65,18 +68,20 @@ class Gaps(QObject):
     def __init__(self) -> None:
         super().__init__()
         self.found: list[Gap] = []
-        self._begin = self._worked = self._queued = 0.0
+        self._begin = self._worked = self._all = self._queued = 0.0
         self._timer = QTimer(self)
         self._timer.setTimerType(Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self._beat)
         self._timer.start(BEAT_MS)
 
     def _beat(self) -> None:
-        now, worked, queued = monotonic() * MS_PER_SECOND, thread_time() * MS_PER_SECOND, queued_ms()
+        now, worked, all_worked = (each() * MS_PER_SECOND for each in (monotonic, thread_time, process_time))
+        queued = queued_ms()
         if self._begin:
-            late = max(0.0, now - self._begin - BEAT_MS)
-            self.found.append(Gap(self._begin, now, late, worked - self._worked, queued - self._queued))
-        self._begin, self._worked, self._queued = now, worked, queued
+            late, ours = max(0.0, now - self._begin - BEAT_MS), worked - self._worked
+            beside = max(0.0, all_worked - self._all - ours)
+            self.found.append(Gap(self._begin, now, late, ours, beside, queued - self._queued))
+        self._begin, self._worked, self._all, self._queued = now, worked, all_worked, queued
 
 
 class Resting(Rehearsal):
@@ -156,8 +161,8 @@ def gaps(folder: Path, sessions: int) -> None:
         )
     for left, gap, still in sorted(zip(ours, seen.found, stood, strict=True), key=itemgetter(0), reverse=True)[:TOLD]:
         click.echo(
-            f"{left:.1f} ms are left of a gap of {gap.late:.1f} ms: the thread worked {gap.worked:.1f} ms and waited "
-            f"{gap.queued:.1f} ms for a processor; the machine stood still for {still:.1f} ms"
+            f"{left:.1f} ms are left of a gap of {gap.late:.1f} ms: the thread worked {gap.worked:.1f} ms, others "
+            f"{gap.beside:.1f}; it waited {gap.queued:.1f} ms for a processor, and one stood still for {still:.1f} ms"
         )
 
 

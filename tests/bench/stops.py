@@ -1,11 +1,12 @@
-"""What the machine keeps from a program: the wait for a processor, and moments in which nothing on it runs."""
+"""What the machine keeps from a program: the wait for a processor, and moments in which nothing runs on one."""
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from select import select
 from time import monotonic
@@ -28,33 +29,50 @@ def queued_ms() -> float:
 
 
 class Stops(list[tuple[float, float]]):
-    """From when to when the machine stood still, in ms of the monotonic clock."""
+    """From when to when a processor stood still, in ms of the monotonic clock."""
 
     def within(self, begin: float, end: float) -> float:
-        """Return how long it stood still between two moments, in ms."""
-        return sum(max(0.0, min(end, until) - max(begin, since)) for since, until in self)
+        """Return how long one of the processors stood still between two moments, in ms."""
+        reached, still = begin, 0.0
+        for since, until in sorted(self):
+            # Two processors often stand still together.
+            still += max(0.0, min(until, end) - max(since, reached))
+            reached = max(reached, until)
+        return still
 
 
 @contextmanager
 def watched_stops() -> Iterator[Stops]:
-    """Let a program sleep beside this one; how late it was woken is known at the end."""
+    """Let a program sleep on each processor; how late they were woken is known at the end."""
     found = Stops()
-    command = [sys.executable, "-m", __name__]
-    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as sleeper:
+    with ExitStack() as running:
+        sleepers = [running.enter_context(_sleeper(processor)) for processor in _processors()]
         yield found
-        told, _ = sleeper.communicate()
-        found += ((float(since), float(until)) for since, until in map(str.split, told.splitlines()))
+        for sleeper in sleepers:
+            told, _ = sleeper.communicate()
+            found += ((float(since), float(until)) for since, until in map(str.split, told.splitlines()))
 
 
-def sleep_and_tell() -> None:
-    """Sleep again and again until the input ends; then print when the machine stood still."""
+def _sleeper(processor: int) -> subprocess.Popen[str]:
+    command = [sys.executable, "-m", __name__, str(processor)]
+    return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+
+def _processors() -> list[int]:
+    return sorted(os.sched_getaffinity(0)) if sys.platform == "linux" else [0]
+
+
+def sleep_and_tell(processor: int) -> None:
+    """Sleep on this processor again and again until the input ends; then tell when it stood still."""
+    if sys.platform == "linux":
+        os.sched_setaffinity(0, {processor})
     found = Stops()
     while True:
         due, queued = monotonic() * MS_PER_SECOND + NAP_MS, queued_ms()
         ended, _, _ = select([sys.stdin], [], [], NAP_MS / MS_PER_SECOND)
         if ended:
             break
-        # Other programs had its processor, which says nothing about another's.
+        # Other programs had the processor, which says nothing about the kiosk.
         until = monotonic() * MS_PER_SECOND - (queued_ms() - queued)
         if until - due > SHORTEST_MS:
             found.append((due, until))
@@ -63,4 +81,4 @@ def sleep_and_tell() -> None:
 
 
 if __name__ == "__main__":
-    sleep_and_tell()
+    sleep_and_tell(int(sys.argv[1]))
