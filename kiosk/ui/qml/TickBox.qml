@@ -32,9 +32,9 @@ Choosable {
 
     background: Rectangle {
         radius: Theme.radius
-        // Only what is ticked is filled; the pointer over it changes the edge alone.
-        color: box.on ? Theme.sand : Theme.white
-        border { color: box.warning ? Theme.deepAmber : box.lighter && !box.on && !box.hovered ? Theme.slot : Theme.sea; width: (box.warning || box.hovered || box.on ? 4 : 2) * Theme.unit }
+        // What is ticked is darker; the pointer over it changes the edge alone.
+        color: !box.on ? Theme.touchable : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.14))
+        border { color: box.warning ? Theme.deepAmber : box.lighter && !box.on && !box.hovered && !Theme.highContrast ? Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.45)) : Theme.sea; width: (box.warning || box.hovered || box.on ? 4 : 2) * Theme.unit }
         FocusRing {
             around: box
             reach: 7 * Theme.unit
