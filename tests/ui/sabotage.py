@@ -43,6 +43,15 @@ class Sabotage(Rehearsal):
         self._check = app.runner.on_event
         app.runner.on_event = self._look
 
+    def run(self) -> None:
+        """Go through the session to its end.
+
+        A signal ends the loop at once: a session cut off by one would pass for one that the robot's fault has ended.
+        """
+        super().run()
+        assert not self._app.stop_requested, "another program has asked this process to end"
+        assert self._over, "the loop has ended before the session"
+
     def _click(self, name: str) -> None:
         self._clicks += 1
         if self._strike is not None and self._is_time(name):
