@@ -63,16 +63,13 @@ TEXTS += ["session-0001", "3 cats", "abc123-dirty", "deadbeef", "0.1.0", "0.12.3
 TEXTS += ["2024-05-01T10:00:00.000+00:00", "second 3", "'quoted'", "about-you=1", "{}", "f", "yes", "no", "a, b; c"]
 
 
-@pytest.mark.parametrize(
-    ("text", "kind"), [(text, kind) for kind, texts in MISREAD.items() for text in texts], ids=repr
-)
-def test_a_text_that_a_reader_takes_for_something_else_is_known(text: str, kind: str) -> None:
-    assert read_as(text) == kind
+def test_a_text_that_a_reader_takes_for_something_else_is_known() -> None:
+    kinds = {text: kind for kind, texts in MISREAD.items() for text in texts}
+    assert {text: read_as(text) for text in kinds} == kinds
 
 
-@pytest.mark.parametrize("text", TEXTS)
-def test_other_texts_stay_texts(text: str) -> None:
-    assert read_as(text) is None
+def test_other_texts_stay_texts() -> None:
+    assert [text for text in TEXTS if read_as(text) is not None] == []
 
 
 @pytest.mark.parametrize("text", ["0", "1", "42", "123456789012345"])

@@ -151,14 +151,12 @@ def after_the_gate_opened() -> AssistanceEnv:
 
 
 @pytest.mark.parametrize("at", [before_the_gate_opens, after_the_gate_opened])
-@pytest.mark.parametrize("action", NO_ACTIONS, ids=lambda action: type(action).__name__)
-def test_what_is_no_action_is_refused_in_words_whether_or_not_the_gate_is_open(
-    at: Callable[[], AssistanceEnv], action: Any
-) -> None:
+def test_what_is_no_action_is_refused_in_words_whether_or_not_the_gate_is_open(at: Callable[[], AssistanceEnv]) -> None:
     environment, undisturbed = at(), at()
-    with pytest.raises(InvalidAction, match=r"^the action must be a whole number from 0 to 3, not "):
-        environment.step(action)
-    # The refusal leaves the game as it was.
+    for action in NO_ACTIONS:
+        with pytest.raises(InvalidAction, match=r"^the action must be a whole number from 0 to 3, not "):
+            environment.step(action)
+    # The refusals leave the game as it was.
     assert repr(environment.step(0)) == repr(undisturbed.step(0))
 
 

@@ -92,17 +92,17 @@ def test_no_screen_has_anything_that_asks_for_an_address() -> None:
     assert {file.name: found[0] for file in (*FILES, *scripts) if (found := asks.search(file.read_text("utf-8")))} == {}
 
 
-@pytest.mark.parametrize("file", FILES, ids=lambda file: file.name)
-def test_every_text_of_a_screen_is_plain(file: Path) -> None:
-    source = file.read_text("utf-8")
-    assert set(re.findall(r"textFormat: *(\S+)", source)) <= {"Text.PlainText", "TextEdit.PlainText"}
-    assert "placeholderText:" not in source
-    for kind, own in elements(source):
-        # One whose content is a Text of its own draws nothing else.
-        plain = "textFormat: TextEdit.PlainText" in own or "contentItem: Text " in own
-        assert kind not in DRAW_MARKUP or plain, own
-        assert kind != "Text" or "textFormat: Text.PlainText" in own, own
-        assert kind not in BUTTONS or not re.search(r"^\s*text:", own, re.MULTILINE), own
+def test_every_text_of_a_screen_is_plain() -> None:
+    for file in FILES:
+        source = file.read_text("utf-8")
+        assert set(re.findall(r"textFormat: *(\S+)", source)) <= {"Text.PlainText", "TextEdit.PlainText"}, file
+        assert "placeholderText:" not in source, file
+        for kind, own in elements(source):
+            # One whose content is a Text of its own draws nothing else.
+            plain = "textFormat: TextEdit.PlainText" in own or "contentItem: Text " in own
+            assert kind not in DRAW_MARKUP or plain, (file, own)
+            assert kind != "Text" or "textFormat: Text.PlainText" in own, (file, own)
+            assert kind not in BUTTONS or not re.search(r"^\s*text:", own, re.MULTILINE), (file, own)
 
 
 class _Marked(Transformer):

@@ -12,7 +12,7 @@ from kiosk.assistance.wording import Catalogue
 from kiosk.config import Settings
 from kiosk.experiment.booth_status import DayCounts, utc
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.experimenter import DEVIATIONS, Action, AuditEvent, shortcuts
+from kiosk.experiment.experimenter import DEVIATIONS, Action, shortcuts
 from kiosk.experiment.outcomes import Disposition, NotRecordedReason
 from kiosk.robots.embodiment import Health
 from kiosk.store.maintenance import FreeSpace
@@ -79,10 +79,10 @@ def test_a_pack_is_changed_if_another_one_spoke_the_same_language() -> None:
 
 
 @pytest.mark.parametrize("language", CATALOGUES)
-@pytest.mark.parametrize("noted", [each for each in AuditEvent if each in DEVIATIONS])
-def test_every_deviation_has_a_line_in_every_language(noted: AuditEvent, language: str) -> None:
-    name = noted.name.lower().replace("_", "-")
-    assert "game" in CATALOGUES[language].text(f"console-note-{name}", what="game")
+def test_every_deviation_has_a_line_in_every_language(language: str) -> None:
+    for noted in DEVIATIONS:
+        name = noted.name.lower().replace("_", "-")
+        assert "game" in CATALOGUES[language].text(f"console-note-{name}", what="game")
 
 
 @pytest.mark.parametrize(
