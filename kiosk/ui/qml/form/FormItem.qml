@@ -64,11 +64,12 @@ Item {
     readonly property ChoiceList choices: way.item as ChoiceList
     // How high it is without all that, and how much can be added to the distances.
     readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asks + (way.active ? usualSpacing + (choices?.least ?? way.height) : 0)) + 2 * usualMargin
-    // How high the place of its question is: on such a page at least as high as two lines, in the middle of which a short
-    // one stands. So cards and scales stand at the same places on all pages.
-    readonly property real asks: Math.max(told.height, ample ? 2 * Math.ceil(lineOf.height) : 0)
+    // How much height its question and its scale leave of what two lines and a scale of five points take: on such a page
+    // all cards are as high, and stand at the same places on all pages.
+    readonly property real leaves: ample ? Math.max(0, Math.ceil((1 + question.lineHeight) * lineOf.height) - told.height) + 2 * ((way.item as PointScale)?.inset ?? 0) : 0
+    readonly property real asks: told.height + leaves
     readonly property real addable: alone || beside ? 0 : (ample ? 48 : 32) * Theme.unit
-    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : ample ? Theme.textSize > 1 ? 16 : 32 : easy ? 18 : airy ? 22 : paired > 0 ? 12 : calm ? 14 : 8) * Theme.unit
+    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : ample ? Theme.textSize > 1 ? 18 : 36 : easy ? 18 : airy ? 22 : paired > 0 ? 12 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
     readonly property real usualMargin: alone ? 0 : own ? Math.max(10 * Theme.unit, rowMargin - taken / 2) : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : ample ? 12 : easy ? inline ? 28 : 30 : airy ? 26 : paired > 0 ? inline ? ranged ? 16 : 8 : 17 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
@@ -151,7 +152,7 @@ Item {
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.ample ? content.spacing / 8 + (box.asks - height) / 2 : 0
+                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.leaves / 2
                 width: box.beside ? box.textWidth : box.inline ? asked.width - 470 * Theme.unit : asked.width
                 spacing: box.inline ? 0 : box.ample ? 4 * Theme.unit : content.spacing
                 Balanced {
@@ -165,7 +166,7 @@ Item {
                             : box.paired > 0 ? box.asking : box.dense ? Theme.reading : box.easy ? Theme.size(36) : box.airy ? Theme.size(38) : Theme.body
                         bold: box.item.kind !== "page"
                     }
-                    lineHeight: box.item.kind === "page" ? 1.15 : 1
+                    lineHeight: box.item.kind === "page" ? 1.15 : box.ample ? 0.92 : 1
                     horizontalAlignment: Text.AlignLeft
                 }
                 // What a number may be, below the question where the number stands beside that.
@@ -202,7 +203,7 @@ Item {
                 id: way
                 readonly property real room: box.beside ? box.scaleWidth : asked.width
                 x: Theme.across(box.beside ? asked.width - room : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.flank ? asked.middle - height / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : box.asks + content.spacing
+                y: box.flank ? asked.middle - height / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.y + told.height + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null

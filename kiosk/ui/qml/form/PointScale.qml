@@ -27,7 +27,7 @@ Item {
     property var flank: null
     // How far above the points they stand then.
     property real lift: 0
-    // Whether a row of many points is as high as one of few, and so stands at the same places.
+    // Whether a row of small points is given as much height as one of large ones.
     property bool even: false
     signal chosen(int point)
 
@@ -38,8 +38,9 @@ Item {
     readonly property bool many: points > 7 && !pictured
     readonly property bool spread: flank !== null && many
     readonly property real size: spread ? Math.min(76 * Theme.unit, filling) : flank?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
-    readonly property real inset: even && many && below && !alone ? Math.max(0, (wish - size) / 2) : 0
-    readonly property real filling: width / (points + 0.24 * (points - 1))
+    // How much of that height it leaves, above itself and below.
+    readonly property real inset: even && below && !alone && !pictured ? Math.max(0, (wish - size) / 2) : 0
+    readonly property real filling: width / (points + (even ? 0.113 : 0.24) * (points - 1))
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real most: 250 * Theme.unit * Theme.textSize
     readonly property bool roomy: lowest.implicitWidth + highest.implicitWidth + 2 * Theme.gap + points * size + least <= width
@@ -52,7 +53,7 @@ Item {
         : Math.min(1.6 * size, Math.max(0.25 * size, (below ? width - points * size : spare) / Math.max(1, points - 1)))
     readonly property real span: points * size + (points - 1) * gap
 
-    readonly property real under: (spread ? 4 : own ? 6 : large && Theme.textSize <= 1.15 ? 14 : 12) * Theme.unit
+    readonly property real under: (spread ? 4 : own ? 6 : even ? 10 : large && Theme.textSize <= 1.15 ? 14 : 12) * Theme.unit
     readonly property real words: Math.max(lowest.height, highest.height)
     // Below a few points there would be room for a few letters only: the ends then reach beyond the points.
     readonly property real half: Math.min(width / 2 - Theme.gap, Math.max(span / 2 - 0.5 * Theme.gap, most))
@@ -61,7 +62,7 @@ Item {
     readonly property real head: beside && headed && !own ? words + lift : 0
 
     // In a row, what has air below its letters is in the middle by what can be seen of it.
-    height: spread ? row.height + words + under - 8 * Theme.unit : flank ? size : beside && !own ? head + row.height : below ? row.height + words + under + 2 * inset : Math.max(row.height, words)
+    height: spread ? row.height + words + under - 8 * Theme.unit : flank ? size : beside && !own ? head + row.height : below ? row.height + words + under : Math.max(row.height, words)
 
     // Under the first point, or above it; or before it, at the edge where the question begins.
     PlainText {
@@ -103,7 +104,7 @@ Item {
     Row {
         id: row
         x: Theme.across(scale.below ? 0 : scale.leftRoom + Theme.gap, width, scale.width)
-        y: scale.beside && !scale.flank ? scale.head : scale.below ? 1.3 * scale.inset : (scale.height - height) / 2
+        y: scale.beside && !scale.flank ? scale.head : scale.below ? 0 : (scale.height - height) / 2
         spacing: scale.gap
         Repeater {
             id: buttons
@@ -138,7 +139,7 @@ Item {
                         anchors.centerIn: parent
                         visible: !scale.pictured
                         text: point.number
-                        font { pixelSize: Math.min(Theme.heading, Math.max(0.42 * scale.size, Math.min(Theme.body, 0.5 * scale.size))); bold: true }
+                        font { pixelSize: Math.min(Theme.heading, Math.max((scale.inset > 0 ? 0.48 : 0.42) * scale.size, Math.min(Theme.body, 0.5 * scale.size))); bold: true }
                         color: point.on ? Theme.white : Theme.ink
                     }
                     Image {
