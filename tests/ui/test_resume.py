@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -75,15 +76,6 @@ def played(qapp: QGuiApplication, tmp_path_factory: pytest.TempPathFactory) -> P
         return Played(followed, stored.story(1))
 
 
-def close_in(data: Path, stage: Stage, qtbot: QtBot) -> None:
-    """Leave a session behind in this stage by closing the kiosk."""
-    with headless(SMALL, data, mode=HALF) as app:
-        qtbot.waitUntil(app.window.isExposed)
-        go_to(app, stage)
-    with Recorder(data):
-        pass
-
-
 def read(data: Path) -> InterruptedSession:
     """Return the first session, as the kiosk reads it."""
     found = read_interrupted_session(data, 1)
@@ -91,35 +83,60 @@ def read(data: Path) -> InterruptedSession:
     return found
 
 
-@pytest.mark.parametrize("crash", [True, False], ids=["killed", "closed"])
-@pytest.mark.parametrize("stage", RESUMABLE, ids=lambda stage: stage.value)
-def test_a_session_goes_on_from_the_start_of_its_stage_to_its_end(
-    stage: Stage, played: Played, tmp_path: Path, qtbot: QtBot, *, crash: bool
-) -> None:
-    if crash:
-        played.cut_off(tmp_path, stage)
-    else:
-        close_in(tmp_path, stage, qtbot)
-    cut = read(tmp_path)
-    with headless(SMALL, tmp_path, mode=HALF) as app:
-        qtbot.waitUntil(app.window.isExposed)
-        app.runner.resume(cut.session, cut.number, cut.past)
-        assert app.runner.stage is stage
-        if crash:
-            Joining(app).run()
-        else:
-            go_on_to_the_end(app)
-    with open_repository(tmp_path) as stored:
+def resume(app: App, data: Path, stage: Stage) -> None:
+    """Go on with the session that was cut off in this stage."""
+    cut = read(data)
+    app.runner.resume(cut.session, cut.number, cut.past)
+    assert app.runner.stage is stage
+
+
+def assert_whole(data: Path, resumed_in: Sequence[Stage]) -> None:
+    """Assert that the session came to its end, with no gap where it went on in these stages."""
+    with open_repository(data) as stored:
         events: list[Event] = stored.story(1)
         plan, seed = stored.plan(1), stored.seed(1)
         [session] = stored.sessions()
     assert session.status is Status.COMPLETED
     assert session.pairs == 1
-    resumed = next(i for i, event in enumerate(events) if isinstance(event, happened.SessionResumed))
-    assert events[resumed + 1] == happened.StageEntered(at_ms=events[resumed].at_ms, stage=stage)
+    resumed = [number for number, event in enumerate(events) if isinstance(event, happened.SessionResumed)]
+    assert [events[number + 1] for number in resumed] == [
+        happened.StageEntered(at_ms=events[number].at_ms, stage=stage)
+        for number, stage in zip(resumed, resumed_in, strict=True)
+    ]
     assert all(one.at_ms <= other.at_ms for one, other in pairwise(events))
     assert first_difference(replay_events(plan, seed, events), events) is None
-    assert verify(tmp_path) == []
+    assert verify(data) == []
+
+
+@pytest.mark.parametrize("stage", RESUMABLE, ids=lambda stage: stage.value)
+def test_a_session_that_was_killed_goes_on_from_the_start_of_its_stage_to_its_end(
+    stage: Stage, played: Played, tmp_path: Path, qtbot: QtBot
+) -> None:
+    played.cut_off(tmp_path, stage)
+    with headless(SMALL, tmp_path, mode=HALF) as app:
+        qtbot.waitUntil(app.window.isExposed)
+        resume(app, tmp_path, stage)
+        Joining(app).run()
+    assert_whole(tmp_path, [stage])
+
+
+def test_a_session_goes_on_after_the_kiosk_was_closed_in_one_stage_after_the_other(
+    tmp_path: Path, qtbot: QtBot
+) -> None:
+    closed_in: list[Stage] = []
+    for stage in (*RESUMABLE, Stage.OVER):
+        with headless(SMALL, tmp_path, mode=HALF) as app:
+            qtbot.waitUntil(app.window.isExposed)
+            if closed_in:
+                resume(app, tmp_path, closed_in[-1])
+            if stage is Stage.OVER:
+                go_on_to_the_end(app)
+            else:
+                go_to(app, stage)
+        with Recorder(tmp_path):
+            pass
+        closed_in.append(stage)
+    assert_whole(tmp_path, RESUMABLE)
 
 
 def test_a_game_is_not_gone_on_with(played: Played, tmp_path: Path, qtbot: QtBot) -> None:
