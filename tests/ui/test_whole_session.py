@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -22,12 +23,22 @@ from kiosk.experiment.session_state import SessionState
 from kiosk.store.queries import open_repository
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile
-from tests.ui.conftest import MakeBooth
+from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import BRIEF, HALF, SMALL, TINY, headless, often, short
 from tests.ui.visiting import PAIR
 
 BARE = often(Settings.model_validate({"questionnaires": ["trust"], **PAIR}))
 """Every stage, each as short as it can be."""
+
+
+@pytest.fixture(scope="module")
+def bare(qapp: QGuiApplication, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Booth]:
+    """Provide one booth for all visitors who do not stay to the end: each leaves it at the start screen."""
+    data = tmp_path_factory.mktemp("bare")
+    with headless(BARE, data, mode=HALF) as app:
+        while not (app.window.isExposed() and app.window.isActive()):
+            qapp.processEvents()
+        yield Booth(app, data)
 
 
 def test_a_whole_session_by_mouse_leaves_its_events_its_hints_its_answers_and_its_consent(
@@ -58,12 +69,12 @@ def test_a_whole_session_by_mouse_leaves_its_events_its_hints_its_answers_and_it
     [(BehaviourKind.DECLINES, NotRecordedReason.DECLINED), (BehaviourKind.UNDER_AGE, NotRecordedReason.UNDER_AGE)],
 )
 def test_who_declines_or_is_too_young_plays_to_the_end_and_nothing_is_stored_of_it(
-    make_booth: MakeBooth, manner: BehaviourKind, why: NotRecordedReason
+    bare: Booth, manner: BehaviourKind, why: NotRecordedReason
 ) -> None:
-    booth = make_booth(settings=BARE)
     why_not: list[NotRecordedReason] = []
-    rehearsal = Rehearsal(booth.app, 1, visitor=BehaviourProfile(manner))
-    watch = booth.app.runner.on_event
+    before = endings(bare)
+    rehearsal = Rehearsal(bare.app, 1, visitor=BehaviourProfile(manner))
+    watch = bare.app.runner.on_event
     assert watch is not None
 
     def look(event: WorldEvent, outcome: Outcome, stage: Stage) -> None:
@@ -71,26 +82,34 @@ def test_who_declines_or_is_too_young_plays_to_the_end_and_nothing_is_stored_of_
             why_not.append(outcome.recording.why)
         watch(event, outcome, stage)
 
-    booth.app.runner.on_event = look
+    bare.app.runner.on_event = look
     rehearsal.run()
+    bare.app.runner.on_event = watch
     assert why_not == [why]
-    assert booth.screen == "attract"
+    assert bare.screen == "attract"
+    assert endings(bare) == before
+
+
+def endings(booth: Booth) -> list[Status | None]:
+    """Return how each session that is stored has ended."""
     with open_repository(booth.data) as stored:
-        assert list(stored.sessions()) == []
+        return [session.status for session in stored.sessions()]
 
 
 @pytest.mark.parametrize("stage", ["consent", "about_you", "practice", "game", "result", "questions", "debrief"])
-def test_whoever_walks_away_is_asked_and_then_the_kiosk_is_free_again(make_booth: MakeBooth, stage: str) -> None:
-    booth = make_booth(settings=BARE)
+def test_whoever_walks_away_is_asked_and_then_the_kiosk_is_free_again(bare: Booth, stage: str) -> None:
     asked: list[bool] = []
-    kiosk = booth.app.screens.kiosk
-    kiosk.changed.connect(lambda: asked.append(bool(kiosk.property("asksStillThere"))))
-    booth.rehearse(1, BehaviourProfile(BehaviourKind.LEAVES, Stage(stage)))
+    before, kiosk = endings(bare), bare.app.screens.kiosk
+
+    def look() -> None:
+        asked.append(bool(kiosk.property("asksStillThere")))
+
+    kiosk.changed.connect(look)
+    bare.rehearse(1, BehaviourProfile(BehaviourKind.LEAVES, Stage(stage)))
+    kiosk.changed.disconnect(look)
     assert True in asked
-    assert booth.screen == "attract"
-    with open_repository(booth.data) as stored:
-        endings = [session.status for session in stored.sessions()]
-    assert endings == ([] if stage == "consent" else [Status.ABANDONED])
+    assert bare.screen == "attract"
+    assert endings(bare) == before + ([] if stage == "consent" else [Status.ABANDONED])
 
 
 CONDITIONAL = """
