@@ -403,6 +403,10 @@ class PlainSentences:
         """Return all that could be said with a hint."""
         return self._wording.catalogue.wordings(pointing(hint), **place(hint))
 
+    def advice(self, hint: Hint, sentence: str) -> str:  # noqa: ARG002 - it is all advice
+        """Return the part of a hint's sentence that says where."""
+        return sentence
+
     def remark(self, action: ActionSpec) -> str:
         """Return what is said by an action without a place."""
         return self._wording.say(action.message)
@@ -426,6 +430,10 @@ class ReasonedSentences(PlainSentences):
         reasons = catalogue.wordings(reasoning(hint), **catalogue.card(hint.name))
         return tuple(f"{reason} {where}" for reason, where in product(reasons, super().all_wordings(hint)))
 
+    def advice(self, hint: Hint, sentence: str) -> str:
+        """Return the part of a hint's sentence that says where: its end."""
+        return max((where for where in super().all_wordings(hint) if sentence.endswith(where)), key=len, default="")
+
 
 class ReminderSentences(PlainSentences):
     """Says what this player's history holds of the pair, and not where its cards lie."""
@@ -438,6 +446,10 @@ class ReminderSentences(PlainSentences):
         """Return all that could be said with a hint."""
         catalogue = self._wording.catalogue
         return catalogue.wordings(reminding(hint), **catalogue.card(hint.name))
+
+    def advice(self, hint: Hint, sentence: str) -> str:  # noqa: ARG002 - no part of it is advice
+        """Return the empty text: a reminder names no place."""
+        return ""
 
 
 class NoSentences(PlainSentences):

@@ -32,6 +32,10 @@ class Sentences(Protocol):
         """All the sentences that there are for one hint."""
         ...
 
+    def advice(self, hint: Hint, sentence: str) -> str:
+        """Return the part of a hint's sentence that says where."""
+        ...
+
     def remark(self, action: ActionSpec) -> str:
         """Return the sentence for an action without a place."""
         ...

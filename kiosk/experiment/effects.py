@@ -159,6 +159,8 @@ class Speak:
 
     utterance: int
     sentence: str
+    advice: str = ""
+    """The end of a hint's sentence that says where; the bubble shows it apart."""
 
 
 @dataclass(frozen=True)

@@ -211,7 +211,7 @@ class GameStage(StageHandler):
         outcome.emit(
             happened.SentenceRequested(at_ms=outcome.at_ms, utterance=given.utterance, sentence=given.sentence)
         )
-        outcome.effect(do.StopSpeaking(), do.Speak(given.utterance, given.sentence))
+        outcome.effect(do.StopSpeaking(), _speak(given, sentences))
         if given.holds and not given.told:
             outcome.effect(
                 do.StopTimer(Timer.READING),
@@ -394,7 +394,7 @@ class GameStage(StageHandler):
         if self._timing.highlight_delay_ms == 0:
             self._mark(outcome)
         outcome.effect(
-            do.Speak(given.utterance, sentence),
+            _speak(given, sentences),
             do.StartTimer(Timer.SPEECH_DEADLINE, self._timing.speech_time(sentence)),
         )
         if not given.held_long_enough:
@@ -595,6 +595,12 @@ class PracticeStage(GameStage):
 
     def _end(self, how: PracticeEnd, outcome: OutcomeBuilder) -> None:
         outcome.emit(happened.PracticeFinished(at_ms=outcome.at_ms, how=how))
+
+
+def _speak(given: _Given, sentences: Sentences) -> do.Speak:
+    """Return the effect that says a hint or a remark."""
+    advice = "" if given.hint is None else sentences.advice(given.hint, given.sentence)
+    return do.Speak(given.utterance, given.sentence, advice)
 
 
 def _reaction(hint: Hint, flip: Flip) -> Mood:

@@ -93,7 +93,7 @@ class SpeechWriter:
         """Have a sentence said once more."""
         number = next(self._numbers)
         outcome.emit(happened.SentenceRepeated(at_ms=outcome.at_ms, of=said.utterance, utterance=number))
-        outcome.effect(do.Speak(number, said.sentence))
+        outcome.effect(do.Speak(number, said.sentence, said.advice))
 
 
 class ConsentStage(StageHandler):

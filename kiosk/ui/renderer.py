@@ -180,9 +180,9 @@ class Renderer:
                     screens.board.clear_highlight()
                     if self._body is not None:
                         self._body.look_at(None)
-                case do.Speak(utterance=utterance, sentence=sentence):
+                case do.Speak(utterance=utterance, sentence=sentence, advice=advice):
                     screens.avatar.feel(None)
-                    screens.avatar.say(sentence)
+                    screens.avatar.say(sentence, advice)
                     if self._body is not None:
                         self._body.say(utterance, sentence)
                 case do.StopSpeaking():

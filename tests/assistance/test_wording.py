@@ -17,6 +17,7 @@ from kiosk.assistance.wording import (
     Catalogue,
     PlainSentences,
     ReasonedSentences,
+    ReminderSentences,
     Wording,
     place,
     pointing,
@@ -225,6 +226,26 @@ def test_reasoned_sentences_say_why_and_then_where() -> None:
             for why in ENGLISH.wordings(reasoning(given), card="owl")
             for where in ENGLISH.wordings(pointing(given), **place(given))
         }
+
+
+@pytest.mark.parametrize("kind", [PlainSentences, ReasonedSentences])
+def test_the_advice_of_a_hint_is_where_to_look(kind: type[PlainSentences]) -> None:
+    sentences = kind(Wording(ENGLISH, Random(1)))
+    for given in EVERY_HINT:
+        for sentence in sentences.all_wordings(given):
+            advice = sentences.advice(given, sentence)
+            assert sentence.endswith(advice)
+            assert advice in ENGLISH.wordings(pointing(given), **place(given))
+
+
+def test_a_reminder_has_no_advice() -> None:
+    sentences = ReminderSentences(Wording(ENGLISH, Random(1)))
+    assert {sentences.advice(given, sentences.sentence(given)) for given in EVERY_HINT} == {""}
+
+
+def test_a_sentence_that_does_not_end_in_advice_has_none() -> None:
+    sentences = ReasonedSentences(Wording(ENGLISH, Random(1)))
+    assert sentences.advice(EVERY_HINT[0], "There it is.") == ""
 
 
 # The catalogue

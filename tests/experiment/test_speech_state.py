@@ -33,10 +33,13 @@ def hinted(voice: Voice = Voice.SPEAKS) -> Driver:
 def test_the_avatar_says_at_once_what_the_robot_had_not_said() -> None:
     driver = hinted()
     hint = driver.noted(happened.HintGiven)[-1]
+    said = next(effect for effect in reversed(driver.effects) if isinstance(effect, do.Speak))
+    assert (said.utterance, said.sentence) == (hint.utterance, hint.sentence)
+    assert said.advice
     outcome = lose(driver)
     assert outcome == Outcome(
         (happened.EmbodimentChanged(at_ms=driver.now, embodiment=EmbodimentName.AVATAR, why="the plug"),),
-        (do.SwitchEmbodiment(EmbodimentName.AVATAR), do.Speak(hint.utterance, hint.sentence)),
+        (do.SwitchEmbodiment(EmbodimentName.AVATAR), said),
     )
 
 
@@ -135,7 +138,7 @@ def test_the_last_sentence_is_said_again_under_a_new_number(stage: Stage) -> Non
     outcome = driver.repeat()
     assert outcome == Outcome(
         (happened.SentenceRepeated(at_ms=driver.now, of=last.utterance, utterance=last.utterance + 1),),
-        (do.Speak(last.utterance + 1, last.sentence),),
+        (do.Speak(last.utterance + 1, last.sentence, last.advice),),
     )
 
 
@@ -217,4 +220,6 @@ def test_the_avatar_goes_on_with_what_the_robot_was_saying_again() -> None:
     driver = said(Stage.GAME)
     driver.repeat()
     again = driver.noted(happened.SentenceRepeated)[0].utterance
-    assert lose(driver).effects[-1] == do.Speak(again, str(driver.view.bubble))
+    repeated = next(effect for effect in reversed(driver.effects) if isinstance(effect, do.Speak))
+    assert (repeated.utterance, repeated.sentence) == (again, driver.view.bubble)
+    assert lose(driver).effects[-1] == repeated

@@ -158,8 +158,8 @@ def worded(item: Item, language: str) -> Item:
     return type(item).model_validate(rewritten(item.model_dump()))
 
 
-def longest_hint(catalogue: Catalogue) -> str:
-    """Return the longest that the assistant ever says with a hint."""
+def longest_hint(catalogue: Catalogue) -> tuple[str, str]:
+    """Return the longest that the assistant ever says with a hint, and its advice."""
     card = catalogue.card("hedgehog")
     reasons = [
         wording
@@ -168,8 +168,8 @@ def longest_hint(catalogue: Catalogue) -> str:
         if (message := f"reason-{which.value}-{reason.value}") in catalogue
         for wording in catalogue.wordings(message, **card)
     ]
-    places = catalogue.wordings("point-second-card", row=4, column=6)
-    return f"{max(reasons, key=len)} {max(places, key=len)}"
+    advice = max(catalogue.wordings("point-second-card", row=4, column=6), key=len)
+    return f"{max(reasons, key=len)} {advice}", advice
 
 
 def texts(item: QQuickItem) -> Iterator[QQuickItem]:
@@ -397,7 +397,7 @@ def test_every_screen_fits_in_every_language_layout_and_text_size_and_breaks_no_
                 fill()
                 screens.avatar.leave(away=moment in RATED)
                 show_alone(window, screen)
-                screens.avatar.say(said(screen, plan))
+                screens.avatar.say(*said(screen, plan))
                 found = {scrolls(window, layout, moment, plan.language, size) for size in sizes}
                 if looks_between(layout, plan.language, differ=len(found) > 1):
                     scrolls(window, layout, moment, plan.language, TextSize.LARGE)
@@ -624,15 +624,15 @@ def test_start_buttons_are_as_wide_as_each_other(kiosk: tuple[Window, StudyConfi
     assert len({start.width() for start in starts}) == 1
 
 
-def said(screen: str, plan: SessionConfig) -> str:
-    """Return the longest that is said on a screen."""
+def said(screen: str, plan: SessionConfig) -> tuple[str, str]:
+    """Return the longest that is said on a screen, and its advice."""
     catalogue = plan.catalogue
     given = {"introduction": {"cards": 24, "pairs": 12}, "practice": {}, "thanks": {}}
     if screen in given:
-        return max(catalogue.wordings(f"{screen}-speech", **given[screen]), key=len)
+        return max(catalogue.wordings(f"{screen}-speech", **given[screen]), key=len), ""
     if screen == "result":
-        return max(catalogue.wordings("result-speech-many", moves=188), key=len)
-    return longest_hint(catalogue) if screen == "game" else ""
+        return max(catalogue.wordings("result-speech-many", moves=188), key=len), ""
+    return longest_hint(catalogue) if screen == "game" else ("", "")
 
 
 @pytest.mark.parametrize(("width", "height"), SIZES)
@@ -648,7 +648,7 @@ def test_no_text_is_cut_off_or_covers_another_or_is_too_small_and_what_is_declar
         if english and height > width and (screen not in LATER or moment in LATER[screen]):
             continue
         show_alone(opened, screen)
-        screens.avatar.say(longest_hint(study.plans[0].catalogue) if screen in SPEAKING else "")
+        screens.avatar.say(*longest_hint(study.plans[0].catalogue) if screen in SPEAKING else ("",))
         for text_size in sizes:
             shown.setProperty("textSize", text_size)
             lay_out(shown)

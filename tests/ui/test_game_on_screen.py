@@ -24,7 +24,7 @@ from kiosk.ui.renderer import Renderer
 from kiosk.ui.simulated_visitor import find_item, item_centre, lay_out
 from kiosk.ui.window import ClockMode, RunMode, WindowMode
 from tests.ui.headless import headless, often
-from tests.ui.looking import is_ignored, items, lies_in, painted, place
+from tests.ui.looking import described, is_ignored, items, lies_in, painted, place
 
 MOVING = RunMode(WindowMode.NOWHERE, ClockMode.WALL, size=(960, 540))
 QUIET = {
@@ -393,6 +393,27 @@ def test_the_first_sentence_of_a_practice_goes_with_the_first_pair_and_can_be_he
     assert (said(), cheers()) == (["Let us practise first."], False)
     avatar.say("Look at column 2.")
     assert (said(), cheers()) == (["Look at column 2."], False)
+
+
+def test_what_to_do_stands_on_a_line_of_its_own_and_is_told_once(still: App) -> None:
+    def parts() -> list[tuple[str, bool]]:
+        bubbles = (i for i in items(still.window.contentItem()) if lies_in(i, "Bubble"))
+        shown = ((i.property("text"), i.property("font")) for i in bubbles if i.isVisible() and i.property("text"))
+        return [(text, font.bold()) for text, font in shown if text != "Memo"]
+
+    avatar = still.screens.avatar
+    still.screens.board.deal(3, 4, 6, "animals")
+    still.screens.kiosk.show("game")
+    avatar.say("You have seen it. Try row 2.", "Try row 2.")
+    assert parts() == [("You have seen it.", False), ("Try row\u00a02.", True)]
+    inside = (i for i in items(still.window.contentItem()) if lies_in(i, "Bubble") and not is_ignored(i))
+    assert [text for _, text in map(described, inside) if "Try" in text] == ["You have seen it. Try row 2."]
+    avatar.say("Try row 2.", "Try row 2.")
+    assert parts() == [("Try row\u00a02.", True)]
+    avatar.say("你见过它。看第二行。", "看第二行。")
+    assert parts() == [("你见过它。", False), ("看第二行。", True)]
+    avatar.say("You have seen it.")
+    assert parts() == [("You have seen it.", False)]
 
 
 def test_the_helper_says_whose_turn_it_is_until_a_card_is_turned(still: App) -> None:

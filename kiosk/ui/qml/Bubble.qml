@@ -14,11 +14,12 @@ Item {
     property bool cheers: false         // whether the sentence is a cheer: large, bold and in the middle
     property string outcome: ""         // what stands above one sentence, as large as a cheer
     property string outcomeOf: ""       // which sentence that is
+    property string advice: ""          // the end of the sentence that says what to do, on a line of its own
     property string speaker: ""         // whose words they are; empty where no speaker has a name
 
     // Between the bubble and the face; without a face only the edge of the window has to be kept clear of.
     readonly property real tail: (hasSpeaker ? 34 : 12) * Theme.unit
-    readonly property bool tells: outcome !== "" && words.text === outcomeOf
+    readonly property bool tells: outcome !== "" && whole === outcomeOf
     readonly property real cheer: Theme.size(grows ? 64 : 52)
     readonly property real tag: speaker === "" ? 0 : name.height - 0.3 * Theme.gap
     // How much of its height is free above it.
@@ -37,37 +38,56 @@ Item {
         if (sentence === "")
             return
         cheered = cheers
-        words.text = sentence
+        show()
     }
-    onThinksChanged: if (thinks) words.text = sentence
-    onOpacityChanged: if (opacity === 0) words.text = ""
+    onAdviceChanged: if (sentence !== "") show()
+    onThinksChanged: if (thinks) show()
+    onOpacityChanged: if (opacity === 0) whole = end = ""
 
-    // The sentence as large as it is usually.
-    Text {
-        id: usual
+    // What stands in it, and which part of that is set apart.
+    property string whole: ""
+    property string end: ""
+    function show() {
+        end = sentence.endsWith(advice) ? advice : ""
+        whole = sentence
+    }
+
+    // Both parts as large as they are usually.
+    component Measure: Text {
+        readonly property real high: text === "" ? 0 : height
+        readonly property int lines: text === "" ? 0 : lineCount
         visible: false
         width: words.width
         textFormat: Text.PlainText
-        text: words.text
-        font.pixelSize: bubble.cheered ? bubble.cheer : Theme.size(bubble.calls ? 50 : bubble.grows ? (large.lineCount <= 2 ? 38 : 34) : 36)
-        font.bold: bubble.cheered
         lineHeight: words.lineHeight
         wrapMode: Text.Wrap
     }
+    Measure {
+        id: usual
+        text: words.text
+        font.pixelSize: bubble.cheered ? bubble.cheer : Theme.size(bubble.calls ? 50 : bubble.grows ? (large.lines + largeEnd.lines <= 2 ? 38 : 34) : 36)
+        font.bold: bubble.cheered
+    }
+    Measure {
+        id: usualEnd
+        text: ending.text
+        font { pixelSize: usual.font.pixelSize; bold: true }
+    }
     // The same in large words, where there is room for two lines of them.
-    Text {
+    Measure {
         id: large
-        visible: false
-        width: words.width
-        textFormat: Text.PlainText
         text: bubble.grows ? words.text : ""
-        wrapMode: Text.Wrap
         font.pixelSize: Theme.size(38)
+    }
+    Measure {
+        id: largeEnd
+        text: bubble.grows ? ending.text : ""
+        font { pixelSize: Theme.size(38); bold: true }
     }
     Rectangle {
         id: box
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom; bottomMargin: bubble.tail }
-        height: words.height + bubble.tag + told.high + 2 * Theme.gap
+        height: words.high + ending.high + bubble.tag + told.high + 2 * Theme.gap
         radius: Theme.radius
         color: Theme.white
         border.color: Theme.sea
@@ -87,22 +107,41 @@ Item {
         }
         Balanced {
             id: words
+            readonly property real high: text === "" && bubble.end !== "" ? 0 : height
+            text: bubble.end === "" ? bubble.whole : bubble.whole.slice(0, -bubble.end.length).trim()
             anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap; topMargin: Theme.gap + bubble.tag + told.high }
             // What would not fit above the face is set smaller: half the size takes a quarter of the room.
             font.pixelSize: {
-                const share = Math.max(0, bubble.room / Math.max(1, usual.height))
-                return share >= 1 ? usual.font.pixelSize : Math.max(Theme.size(0), usual.font.pixelSize * 0.95 * Math.sqrt(share))
+                const share = Math.max(0, (bubble.room - ending.apart) / Math.max(1, usual.high + usualEnd.high))
+                return share >= 1 ? usual.font.pixelSize : Math.max(Theme.size(0), Math.floor(usual.font.pixelSize * Math.max(share, 0.95 * Math.sqrt(share))))
             }
             font.bold: bubble.cheered
             color: bubble.cheered ? Theme.sea : Theme.ink
             horizontalAlignment: bubble.cheered || bubble.tells ? Text.AlignHCenter : LayoutMirroring.enabled ? Text.AlignLeft : undefined
             lineHeight: 1.12
+            // Said once, as a whole.
             Accessible.role: Accessible.AlertMessage
+            Accessible.name: bubble.whole
+        }
+        // Where to look, found at a glance.
+        Balanced {
+            id: ending
+            readonly property real apart: text !== "" && words.text !== "" ? 0.4 * Theme.gap : 0
+            readonly property real high: text === "" ? 0 : height + apart
+            visible: text !== ""
+            anchors { left: words.left; right: words.right; top: words.top; topMargin: words.high + apart }
+            // A number stays with the word before it.
+            text: bubble.end.replace(/ (?=\d)/g, "\u00a0")
+            font { pixelSize: words.font.pixelSize; bold: true }
+            color: Theme.sea
+            horizontalAlignment: words.horizontalAlignment
+            lineHeight: words.lineHeight
+            Accessible.ignored: true
         }
         // Words are on their way.
         Row {
             anchors { left: words.left; verticalCenter: words.verticalCenter }
-            visible: words.text === ""
+            visible: bubble.whole === ""
             spacing: 10 * Theme.unit
             Repeater {
                 model: 3

@@ -34,6 +34,8 @@ Item {
     readonly property real faceTop: face.y + 0.1 * face.height
     // Whether its bubble has room for large words.
     property bool grows: false
+    // How far its bubble may reach out of it, at the top.
+    property real lift: 0
     // Whether it speaks to those who pass.
     property bool calls: false
     readonly property real faceMiddle: face.y + 0.56 * face.height
@@ -108,13 +110,14 @@ Item {
         id: bubble
         // Not from edge to edge: the difference of two edges that have moved and come back lacks the last bit.
         width: parent.width
-        anchors { top: parent.top; bottom: panel.avatar.present ? face.top : parent.bottom; bottomMargin: !panel.avatar.present ? 4 * Theme.unit : panel.leads && face.mood === "listening" ? -0.04 * face.height : -0.14 * face.height }
+        anchors { top: parent.top; topMargin: -panel.lift; bottom: panel.avatar.present ? face.top : parent.bottom; bottomMargin: !panel.avatar.present ? 4 * Theme.unit : panel.leads && face.mood === "listening" ? -0.04 * face.height : -0.14 * face.height }
         sentence: panel.rests || panel.hushed ? "" : panel.said === "" || (panel.leads && panel.aside !== "") ? panel.aside : panel.said
         thinks: panel.speaks && !panel.rests && !panel.hushed && panel.thinks && sentence === ""
         hasSpeaker: panel.avatar.present
         speaker: panel.avatar.name
         calls: panel.calls
         grows: panel.grows
+        advice: sentence === panel.said ? panel.avatar.advice : ""
         outcome: panel.outcome
         outcomeOf: panel.outcomeOf
         cheers: panel.cheers && sentence === panel.aside

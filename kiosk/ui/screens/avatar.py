@@ -45,7 +45,7 @@ class AvatarScreen(QObject):
         self._present = True
         self._moves = False
         self._mood = Mood.IDLE
-        self._bubble = ""
+        self._bubble = self._advice = ""
         self._ponders = False
         self._gaze = (0.0, 0.0)
         self._glance = (0.0, 0.0)
@@ -91,14 +91,14 @@ class AvatarScreen(QObject):
         self._mood = mood
         self.felt.emit()
 
-    def say(self, sentence: str) -> None:
-        """Show a sentence in the bubble; an empty one takes the bubble away."""
-        self._bubble = sentence
+    def say(self, sentence: str, advice: str = "") -> None:
+        """Show a sentence in the bubble, its end that gives advice apart; an empty one takes the bubble away."""
+        self._bubble, self._advice = sentence, advice
         self.said.emit()
 
     def clear(self) -> None:
         """Say nothing, and look calmly at the next visitor."""
-        self._bubble = ""
+        self._bubble = self._advice = ""
         self._mood = Mood.IDLE
         self._ponders = self._away = False
         self._feeling = None
@@ -167,6 +167,11 @@ class AvatarScreen(QObject):
     def bubble(self) -> str:
         """Return the sentence in the bubble; empty for no bubble."""
         return self._bubble
+
+    @Property(str, notify=said)
+    def advice(self) -> str:
+        """Return the end of the sentence that says what to do; empty where none is shown apart."""
+        return self._advice
 
     @Property(float, notify=looked)
     def gazeX(self) -> float:  # noqa: N802 - QML's convention
