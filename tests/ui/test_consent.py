@@ -154,7 +154,9 @@ def test_to_decline_is_as_easy_to_see_as_to_agree(booth: Booth, done: Done) -> N
 
 
 @pytest.mark.usefixtures("done")
-def test_on_an_upright_screen_the_answers_are_two_equal_halves_above_the_way_back(booth: Booth, qtbot: QtBot) -> None:
+def test_on_an_upright_screen_the_way_back_is_beside_the_way_on_and_to_decline_is_no_smaller(
+    booth: Booth, qtbot: QtBot
+) -> None:
     booth.app.screens.kiosk.offer_back(offered=True)
     window = booth.app.window
     window.resize(540, 960)
@@ -162,11 +164,12 @@ def test_on_an_upright_screen_the_answers_are_two_equal_halves_above_the_way_bac
     decline, agree, back = (
         item.mapRectToScene(item.boundingRect()) for item in map(booth.item, ("decline", "agree", "back"))
     )
-    assert decline.size() == agree.size()
-    assert decline.top() == agree.top()
-    assert decline.left() == pytest.approx(540 - agree.right(), abs=1)
-    assert back.left() == decline.left()
-    assert back.top() > agree.bottom()
+    assert decline.height() == agree.height()
+    assert decline.left() == back.left() == pytest.approx(540 - agree.right(), abs=1)
+    assert decline.right() == agree.right()
+    assert decline.bottom() < agree.top()
+    assert back.center().y() == agree.center().y()
+    assert booth.item("decline").property("font") == booth.item("agree").property("font")
 
 
 def test_a_keyboard_alone_decides(booth: Booth, done: Done) -> None:

@@ -14,8 +14,13 @@ Button {
     property bool quiet: false
     // A quiet one that is the way on, once what the page asks for is done: its edge is dashed until then.
     property bool waits: false
-    // A line below the words, such as why it waits; it makes the button no higher.
+    // A few words more, such as why it waits: at its end where that is wide enough, else as a line below the words, which
+    // makes it no higher.
     property string note: ""
+    // Whether it may stand below; else it is left out where there is no room at the end.
+    property bool noteBelow: true
+    readonly property bool noteBeside: note !== "" && noted.advanceWidth + 2 * Theme.gap < (width - wish) / 2
+    readonly property bool noteUnder: note !== "" && noteBelow && !noteBeside
     // How round it is at most.
     property real corner: Infinity
     property real letters: Theme.onButtons
@@ -47,8 +52,13 @@ Button {
         font: button.font
         text: button.words
     }
+    TextMetrics {
+        id: noted
+        font.pixelSize: Theme.size(28)
+        text: button.note
+    }
     contentItem: Text {
-        transform: Translate { y: -below.height / 2 - (button.note === "" ? 0 : 2 * Theme.unit) }
+        transform: Translate { y: button.noteUnder ? -below.height / 2 - 2 * Theme.unit : 0 }
         textFormat: Text.PlainText
         text: button.words
         font: button.font
@@ -61,12 +71,13 @@ Button {
     Text {
         id: below
         objectName: "note"
-        x: (parent.width - width) / 2
-        width: parent.width - 2 * Theme.gap
+        x: button.noteBeside ? Theme.across(parent.width - width - 1.6 * Theme.gap, width, parent.width) : (parent.width - width) / 2
+        width: button.noteBeside ? Math.ceil(noted.advanceWidth) + 2 : parent.width - 2 * Theme.gap
         // Both are a little higher than the middle: as much is free above the capitals as below the note's letters.
-        y: (parent.height + Math.ceil(1.4 * button.letters) - height) / 2 - 2 * Theme.unit
+        y: button.noteBeside ? (parent.height - height) / 2 : (parent.height + Math.ceil(1.4 * button.letters) - height) / 2 - 2 * Theme.unit
         // As large as the words leave it height for.
-        readonly property real letters: Math.max(24 * Theme.unit, Math.min((Theme.upright ? 0.9 : 0.84) * button.letters, (button.height - 1.4 * button.letters) / 1.4))
+        readonly property real letters: button.noteBeside ? noted.font.pixelSize : Math.max(24 * Theme.unit, Math.min((Theme.upright ? 0.9 : 0.84) * button.letters, (button.height - 1.4 * button.letters) / 1.4))
+        visible: button.noteBeside || button.noteUnder
         height: button.note === "" ? 0 : Math.ceil(1.37 * letters)
         textFormat: Text.PlainText
         text: button.note
@@ -74,7 +85,7 @@ Button {
         fontSizeMode: Text.HorizontalFit
         minimumPixelSize: 24 * Theme.unit
         horizontalAlignment: Text.AlignHCenter
-        color: button.waits ? Theme.ink : button.quiet ? Theme.sea : Theme.white
+        color: button.waits && button.noteBeside ? Theme.faintInk : button.waits ? Theme.ink : button.quiet ? Theme.sea : Theme.white
         Accessible.ignored: true
     }
     background: Rectangle {

@@ -209,6 +209,7 @@ PageFrame {
     quiet: form.skips || !form.complete
     way.waits: !form.skips && !form.complete
     way.reason: form.waiting
+    way.note: way.fills && way.waits ? form.waiting : ""
     way.opacity: keyboard.grand ? 1 : setBack
     label: words[form.skips ? "form-skip" : "form-next"]
     beside: progress
@@ -301,18 +302,16 @@ PageFrame {
         return free >= begin + home.y + home.height ? Qt.point((width - wide) / 2, free) : Qt.point(width - wide, beside)
     }
 
-    // Why the way on waits: beside it, or in it where it has the page's width.
+    // Why the way on waits, beside it. Where it has the page's width, that is its note.
     PlainText {
         objectName: "form-waiting"
-        parent: within ? button : view.way
-        readonly property Item button: view.way.button
-        readonly property bool within: view.way.fills
-        visible: view.way.waits && text !== "" && width + 2 * Theme.gap < (within ? (button.width - button.implicitWidth) / 2 : view.way.freeRoom)
+        parent: view.way
+        visible: !view.way.fills && view.way.waits && text !== "" && width + 2 * Theme.gap < view.way.freeRoom
         text: view.form.waiting
         font.pixelSize: Theme.size(28)
         color: Theme.faintInk
-        x: Theme.across(parent.width - width - (within ? 1.6 * Theme.gap : button.width + Theme.gap), width, parent.width)
-        y: (button.height - height) / 2
+        x: Theme.across(parent.width - width - view.way.button.width - Theme.gap, width, parent.width)
+        y: (view.way.button.height - height) / 2
         Accessible.ignored: true
     }
     // To tap beside everything is to have done with typing.

@@ -151,9 +151,7 @@ Window {
               : root.high ? (boardPage.visible ? Math.min(free, boardPage.view.wish) : free)
               : unwatched ? root.room - corner.height - Theme.gap : root.room * upright
         // Board and assistant stand close together: the board takes what its cards need, at least half of the screen.
-        // Below the answers to a consent, the way back stands beside the assistant's head.
-        readonly property real sunk: !root.wide && root.avatar.present && root.kiosk.screen === "consent" && root.kiosk.goesBack && root.texts <= 1.15 ? 0.06 : 0
-        readonly property real upright: !root.speaks ? (root.texts > 1.15 && root.kiosk.screen !== "form" ? 0.84 : 0.78 + sunk)
+        readonly property real upright: !root.speaks ? (root.texts > 1.15 && root.kiosk.screen !== "form" ? 0.84 : 0.78)
               : attractView.visible ? (root.texts > 1.3 ? 0.76 : Math.max(helper.says ? 0.57 : 0.64, 0.57 + 0.25 * (root.texts - 1)))
               // Its boards keep their distance to the buttons.
               : root.kiosk.screen === "introduction" && root.texts <= 1.15 ? 0.66
@@ -367,7 +365,7 @@ Window {
         readonly property real above: !below && corner.visible ? Math.ceil(corner.height + 0.7 * Theme.gap) : 0
         // On an upright screen a long sentence may reach up to the cards, where an announcement stood before it.
         readonly property real reach: boardPage.visible && !root.wide && root.avatar.present && root.texts <= 1 ? 80 * Theme.unit : 0
-        y: below ? stage.y + stage.height - reach - stage.sunk * root.room : above
+        y: below ? stage.y + stage.height - reach : above
         // Beside a robot on a wide screen, what is said ends before the controls.
         // An upright screen's bubble has the edges of its pages, and of the cards.
         width: !below ? root.width - stage.width - Theme.gap : broad ? root.width - (boardPage.visible ? 2 * boardPage.view.edge : 4 * Theme.gap)

@@ -25,8 +25,7 @@ FocusScope {
     property bool even: false
     property string name: "continue"
     property string otherName: ""
-    // Two ways on share the width of an upright page, in letters that leave both room.
-    readonly property real letters: other === "" ? Theme.onButtons : halved ? Theme.size(33) : Theme.body
+    readonly property real letters: other === "" || fills ? Theme.onButtons : Theme.body
     readonly property alias button: go
     // Where there is room between the way back and the way on.
     readonly property real free: returns ? back.x + back.width : 0
@@ -40,27 +39,26 @@ FocusScope {
 
     readonly property real wish: (goes ? go.wish : 0) + (refuses ? no.wish + Theme.gap : 0)
         + (returns ? back.wish + Theme.gap : 0)
-    // Two equal ones take half of an upright page's width each, and the way back stands below them. Larger texts need one row
-    // for each.
-    readonly property bool halved: even && fills && goes && refuses && Theme.textSize <= 1.15
-    readonly property bool beside: !halved && wish <= width
-    // How wide both are then: where they have all of the width, or else as their words need.
-    readonly property bool level: halved || even && beside && goes && refuses
-    readonly property real spread: (width - (returns && !halved ? back.width + Theme.gap : 0) - Theme.gap) / 2
-    // Two equal ones are higher than a single one, with air above and below a line and its note.
-    readonly property real stout: halved ? 30 * Theme.unit : even ? 22 * Theme.unit : 0
+    // Two equal ones share an upright page, one above the other: the lower one stands where the way on of other pages does.
+    readonly property bool beside: !(even && fills && refuses) && wish <= width
+    // How wide both are beside each other: where they have all of the width, or else as their words need.
+    readonly property bool level: even && beside && goes && refuses
+    readonly property real spread: (width - (returns ? back.width + Theme.gap : 0) - Theme.gap) / 2
+    // Two equal ones are higher than a single one, with air above and below a line and its note, but where the note has
+    // room beside the words.
+    readonly property real stout: even && (!fills || Theme.textSize > 1.15) ? 22 * Theme.unit : 0
     readonly property real share: fills ? spread : Math.min(spread, Math.max(go.wish, no.wish))
-    readonly property real step: 0.5 * Theme.gap
+    readonly property real step: (fills && Theme.textSize <= 1.15 ? 0.8 : 0.5) * Theme.gap
     // How far they reach above their place.
     readonly property real over: Math.max(0, -go.y)
     // As high without a way on, so that the way back stands at the same place.
     readonly property real tallest: level ? go.implicitHeight : !goes && !returns ? 0 : Math.max(goes ? go.height : go.implicitHeight, returns ? back.height : 0)
 
-    // Where there are too many for one row: whether the way back stands beside the other one.
-    readonly property bool paired: refuses && back.wish + Theme.gap + no.wish <= width
+    // Where there are too many for one row: whether the way back stands beside the way on.
+    readonly property bool paired: refuses && back.wish + Theme.gap + go.wish <= width
+    readonly property real second: refuses && !beside ? no.height + step : 0
 
-    height: halved ? go.height + (returns ? Theme.gap + back.height : 0) : beside ? tallest : (goes ? go.height : 0) + (refuses ? no.height + step : 0)
-                               + (returns && !paired ? back.height + step : 0)
+    height: beside ? tallest : (goes ? go.height : 0) + second + (returns && !paired ? back.height + step : 0)
 
     // The next visitor begins at the way on, whichever button the last one used.
     onVisibleChanged: go.focus = true
@@ -73,16 +71,16 @@ FocusScope {
         most: ways.width
         width: ways.level ? ways.share
              : !ways.fills || ways.beside && ways.refuses ? Math.min(wish, most)
-             // No wider than the other way on, which is as easy to find.
              : (ways.beside || ways.paired) && ways.returns ? ways.width - back.width - Theme.gap : ways.width
         x: Theme.across(ways.width - width, width, ways.width)
         // Where the other one has two lines, both grow up and down, and the row stays where it is.
-        y: ways.level && !ways.halved ? (ways.tallest - height) / 2 : 0
-        height: ways.level ? Math.max(implicitHeight + ways.stout, no.implicitHeight) : implicitHeight
+        y: ways.level ? (ways.tallest - height) / 2 : ways.second
+        height: ways.even && ways.refuses ? Math.max(implicitHeight + ways.stout, no.implicitHeight) : implicitHeight
         corner: ways.level ? no.topPadding + no.font.pixelSize : Infinity
         quiet: ways.quiet
         waits: ways.waits
         note: ways.note
+        noteBelow: ways.even
         Accessible.description: ways.reason
         words: ways.label
         focus: true
@@ -96,14 +94,14 @@ FocusScope {
         most: ways.width
         width: ways.level ? ways.share
              : !ways.fills || !ways.returns ? Math.min(wish, most)
-             : ways.beside ? ways.width - go.width - back.width - 2 * Theme.gap : ways.paired ? ways.width - back.width - Theme.gap : ways.width
-        x: Theme.across(ways.width - width - (ways.beside || ways.halved ? go.width + Theme.gap : 0), width, ways.width)
-        y: ways.level ? go.y : ways.beside ? 0 : go.height + ways.step
-        height: ways.level ? go.height : implicitHeight
+             : ways.beside ? ways.width - go.width - back.width - 2 * Theme.gap : ways.width
+        x: Theme.across(ways.width - width - (ways.beside ? go.width + Theme.gap : 0), width, ways.width)
+        y: ways.level ? go.y : 0
+        height: ways.even ? go.height : implicitHeight
         quiet: true
         horizontalPadding: (ways.even && ways.fills ? 28 : 44) * Theme.unit
         // Two lines need less air above and below them.
-        verticalPadding: (ways.halved ? 18 : ways.level && wish > ways.spread ? 10 : 26) * Theme.unit
+        verticalPadding: (ways.level && wish > ways.spread ? 10 : 26) * Theme.unit
         words: ways.other
         onClicked: ways.turnedDown()
     }
@@ -115,8 +113,7 @@ FocusScope {
         most: ways.width
         x: Theme.across(0, width, ways.width)
         // Level with a way on of usual letters, also beside one of larger letters.
-        y: ways.halved ? ways.height - height : ways.beside ? ways.tallest - height - Math.min(8 * Theme.unit, (ways.tallest - height) / 2) : ways.paired ? no.y + (no.height - height) / 2 : ways.height - height
-        height: ways.paired && !ways.beside && !ways.halved ? no.height : implicitHeight
+        y: ways.beside ? ways.tallest - height - Math.min(8 * Theme.unit, (ways.tallest - height) / 2) : ways.paired ? go.y + (go.height - height) / 2 : ways.height - height
         quiet: true
         words: ways.words["control-back"]
         verticalPadding: 18 * Theme.unit - 0.68 * (ways.letters - Theme.body)
