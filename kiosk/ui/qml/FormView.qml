@@ -450,9 +450,11 @@ PageFrame {
         open: view.underRoom >= 684 * Theme.unit ? view.underRoom : Math.max(view.underRoom, view.padOver - view.begin)
         covers: open === view.underRoom ? view.begin + home.y + home.height - view.padUnder : open
         near: (card as FormItem)?.inline ?? false
-        // The end of an empty field, where it is once something is typed. Its place in its row is named: it changes then.
+        // On a wide page the end of an empty field, where it is once something is typed. Its place in its row is named: it
+        // changes then.
         aim: {
-            const middle = field?.parent.mapToItem(home, field.x + Theme.across(field.width - field.settled, field.settled, field.width) + field.settled / 2, field.y + field.height / 2) ?? Qt.point(0, 0)
+            const wide = view.upright ? field?.width : field?.settled
+            const middle = field?.parent.mapToItem(home, field.x + Theme.across(field.width - wide, wide, field.width) + wide / 2, field.y + field.height / 2) ?? Qt.point(0, 0)
             return Qt.point(home.mapToItem(view, middle.x, 0).x, view.begin + home.y + middle.y)
         }
         words: view.words

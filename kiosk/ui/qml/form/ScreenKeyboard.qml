@@ -140,18 +140,18 @@ Rectangle {
         onClicked: keyboard.shown = leads
     }
 
-    // A bubble's tail, to the field that is typed into, or to its card where other things stand between.
+    // A bubble's tail. Beside a wide page it reaches the field that is typed into, if nothing stands between; else it ends
+    // at its card, at the middle of the field.
     Shape {
         id: tail
         visible: keyboard.points
         readonly property bool after: keyboard.broad ? keyboard.aim.y > keyboard.y : keyboard.x < 0
         // From the keys to the field's edge; 0 where it is not for that.
-        readonly property real reach: !keyboard.near || !keyboard.field ? 0
-            : !keyboard.broad ? after ? 0 : keyboard.x - keyboard.aim.x - keyboard.field.settled / 2
-            : (after ? keyboard.aim.y - keyboard.y - keyboard.height : keyboard.y - keyboard.aim.y) - keyboard.field.height / 2
-        width: reach > 0 ? reach : keyboard.broad ? Math.min(32 * Theme.unit, keyboard.away - 4 * Theme.unit)
+        readonly property real reach: keyboard.broad || !keyboard.near || !keyboard.field || after ? 0
+            : keyboard.x - keyboard.aim.x - keyboard.field.settled / 2
+        width: reach > 0 ? reach : keyboard.broad ? Math.min(32 * Theme.unit, keyboard.away - 2 * Theme.unit)
             : Math.max(30 * Theme.unit, Math.min(96 * Theme.unit, keyboard.away))
-        height: keyboard.broad ? reach <= 0 ? 2 * width : 56 * Theme.unit : 48 * Theme.unit
+        height: keyboard.broad ? 2 * width : 48 * Theme.unit
         x: keyboard.broad ? keyboard.aim.x - keyboard.x - width / 2 : after ? keyboard.width : -width
         y: keyboard.broad ? (after ? keyboard.height + width / 2 : -width / 2) - height / 2 : keyboard.aim.y - keyboard.y - height / 2
         rotation: (keyboard.broad ? 90 : 0) + (after ? 180 : 0)
