@@ -34,12 +34,19 @@ PageFrame {
         id: letters
         font { pixelSize: 100; bold: true }
     }
+    // The widths of words in these letters: each is measured once, although many sizes are tried.
+    readonly property var known: ({})
+    function measured(word: string): real {
+        if (known[word] === undefined)
+            known[word] = letters.advanceWidth(word)
+        return known[word]
+    }
     // How many lines a question has at this size, in so much width.
     function lines(text: string, size: real, wide: real): int {
-        const room = 98 * wide / size, gap = letters.advanceWidth(" ")
+        const room = 98 * wide / size, gap = measured(" ")
         let count = 1, at = 0
         for (const word of text.split(" ")) {
-            const long = letters.advanceWidth(word)
+            const long = measured(word)
             count += at > 0 && at + gap + long > room ? 1 : 0
             at = at > 0 && at + gap + long <= room ? at + gap + long : long
         }

@@ -221,34 +221,37 @@ Item {
             })
             onLoaded: drawn.answered.connect(value => box.form.give(box.item.id, value))
         }
-        Choosable {
-            id: nothing
-            objectName: `not-applicable-${box.item.id}`
-            visible: box.item.exempts
+        Loader {
+            active: box.item.exempts
+            visible: active
             x: Theme.across(0, width, parent.width)
-            on: box.form.exempt.includes(box.item.id)
-            words: box.words["form-not-applicable"]
-            font.pixelSize: Theme.small
-            leftPadding: 18 * Theme.unit
-            rightPadding: 18 * Theme.unit
-            verticalPadding: (box.dense ? 4 : 8) * Theme.unit
-            Accessible.role: Accessible.CheckBox
-            Accessible.name: `${box.item.text} ${words}`
-            onClicked: box.form.dismiss(box.item.id)
-            contentItem: Text {
-                textFormat: Text.PlainText
-                text: nothing.words
-                font: nothing.font
-                color: nothing.on ? Theme.white : Theme.ink
-            }
-            background: Rectangle {
-                radius: height / 2
-                color: nothing.on ? Theme.sea : Theme.touchable
-                border { color: Theme.sea; width: (nothing.hovered ? 4 : 2) * Theme.unit }
-                FocusRing {
-                    around: nothing
-                    reach: 6 * Theme.unit
+            sourceComponent: Choosable {
+                id: nothing
+                objectName: `not-applicable-${box.item.id}`
+                on: box.form.exempt.includes(box.item.id)
+                words: box.words["form-not-applicable"]
+                font.pixelSize: Theme.small
+                leftPadding: 18 * Theme.unit
+                rightPadding: 18 * Theme.unit
+                verticalPadding: (box.dense ? 4 : 8) * Theme.unit
+                Accessible.role: Accessible.CheckBox
+                Accessible.name: `${box.item.text} ${words}`
+                onClicked: box.form.dismiss(box.item.id)
+                contentItem: Text {
+                    textFormat: Text.PlainText
+                    text: nothing.words
+                    font: nothing.font
+                    color: nothing.on ? Theme.white : Theme.ink
+                }
+                background: Rectangle {
                     radius: height / 2
+                    color: nothing.on ? Theme.sea : Theme.touchable
+                    border { color: Theme.sea; width: (nothing.hovered ? 4 : 2) * Theme.unit }
+                    FocusRing {
+                        around: nothing
+                        reach: 6 * Theme.unit
+                        radius: height / 2
+                    }
                 }
             }
         }
