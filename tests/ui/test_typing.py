@@ -22,13 +22,12 @@ from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import PsychDs
 from kiosk.store.queries import open_repository
 from kiosk.ui.app import App
-from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.replay import Replay
 from kiosk.ui.simulated_visitor import UiDriver
 from kiosk.ui.window import ClockMode, RunMode, WindowMode
 from tests.export.conftest import rows_of
 from tests.ui.conftest import Booth
-from tests.ui.headless import headless
+from tests.ui.headless import HALF, headless
 
 EXACTLY = (
     "a\N{NO-BREAK SPACE}b",
@@ -273,7 +272,7 @@ def study_in(folder: Path, items: str) -> Settings:
     (folder / "form.toml").write_text(FORM + items, "utf-8")
     study = 'languages = ["en"]\nabout_you = "form.toml"\nstages = ["about_you", "game", "thanks"]\n'
     (folder / "study.toml").write_text(
-        study + "[randomisation]\ntarget_n = {}\n[game]\nrows = 2\ncolumns = 3\n", "utf-8"
+        study + "[randomisation]\ntarget_n = {}\n[game]\nrows = 1\ncolumns = 2\n", "utf-8"
     )
     return Settings.read(folder / "study.toml")
 
@@ -289,7 +288,7 @@ RATED = (
 @contextmanager
 def at_work(settings: Settings, data: Path, qtbot: QtBot) -> Iterator[Booth]:
     """Provide a booth with this study, which is closed at the end."""
-    with headless(settings, data) as app:
+    with headless(settings, data, mode=HALF) as app:
         qtbot.waitUntil(lambda: app.window.isExposed() and app.window.isActive())
         yield Booth(app, data)
 
@@ -329,14 +328,19 @@ def replay_app(replay: Replay) -> App:
     return replay  # type: ignore[return-value]  # both have a window and screens, and no more is asked of them
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_simulated_visitors_answer_what_can_only_be_negative(qtbot: QtBot, tmp_path: Path, seed: int) -> None:
+def test_simulated_visitors_answer_what_can_only_be_negative(qtbot: QtBot, tmp_path: Path) -> None:
+    seeds = range(4)
     with at_work(study_in(tmp_path, NUMBER + RATED), tmp_path / "data", qtbot) as booth:
-        Rehearsal(booth.app, seed).run()
+        for seed in seeds:
+            booth.rehearse(seed)
         with open_repository(booth.data) as stored:
-            (session,) = stored.sessions()
-            given = {e.item: e.value for e in stored.events(session.id) if isinstance(e, happened.ResponseGiven)}
-    assert isinstance(given["n"], int)
-    assert isinstance(given["line"], int)
-    assert -10 <= given["n"] <= -2
-    assert -50 <= given["line"] <= 50
+            answers = [
+                {e.item: e.value for e in stored.events(session.id) if isinstance(e, happened.ResponseGiven)}
+                for session in stored.sessions()
+            ]
+    assert len(answers) == len(seeds)
+    for given in answers:
+        assert isinstance(given["n"], int)
+        assert isinstance(given["line"], int)
+        assert -10 <= given["n"] <= -2
+        assert -50 <= given["line"] <= 50
