@@ -272,8 +272,11 @@ def crossings(parts: Sequence[Part]) -> Iterator[tuple[Part, Part]]:
                 yield sorted_parts[one][0], sorted_parts[other][0]
 
 
-def assert_all_can_be_read(shown: QQuickWindow, moment: str) -> None:
-    """No text of the window is cut off, reaches out of the window, or lies on another one or under a button."""
+def assert_all_can_be_read(shown: QQuickWindow, moment: str) -> list[QQuickItem]:
+    """No text of the window is cut off, reaches out of the window, or lies on another one or under a button.
+
+    Returns the texts and buttons that are to be seen: to look for them takes long.
+    """
     inside = QRectF(0, 0, shown.width(), shown.height()).adjusted(*(-HALF_A_PIXEL,) * 2, *(HALF_A_PIXEL,) * 2)
     every = [(item, whole(pane) if pane is not None else None) for item, pane in read(shown.contentItem())]
     written = [Part(item, painted(item), pane) for item, pane in every if item.inherits("QQuickText")]
@@ -294,6 +297,7 @@ def assert_all_can_be_read(shown: QQuickWindow, moment: str) -> None:
     for one, other in crossings([*written, *buttons]):
         apart = not belongs(one.item, other.item) and not belongs(other.item, one.item)
         assert not apart, (moment, one.told, other.told)
+    return [item for item, _ in every]
 
 
 def moments(screens: ScreenSet, study: StudyConfig) -> Iterator[tuple[str, str, Callable[[], None]]]:
@@ -359,11 +363,11 @@ def scrolls(window: Window, layout: Layout, moment: str, language: str, size: Te
     shown, told = window.shown, f"{moment}, {language}, {size.value}"
     window.screens.kiosk.set_text_size(size)
     lay_out(shown)
-    assert_all_can_be_read(shown, told)
-    assert [text.property("text") for text in texts(shown.contentItem()) if is_broken(text)] == [], told
+    seen = assert_all_can_be_read(shown, told)
+    assert [str(item.property("text")) for item in seen if item.inherits("QQuickText") and is_broken(item)] == [], told
     if size is TextSize.NORMAL and (layout.width, layout.height) == (1920, 1080):
         assert_large_enough(shown, told)
-    more = find_item(shown.contentItem(), "more")
+    more = next((item for item in seen if item.objectName() == "more"), None)
     if more is None:
         return False
     assert_no_needless_scrolling(shown, more, told)
