@@ -119,7 +119,7 @@ PageFrame {
         const two = 2 * 1.37 * Theme.size(38), card = two + 1.37 * Theme.size(30) + (Theme.textSize > 1 ? 194 : 202) * Theme.unit
         return rated && form.items.length * card <= room - lead
     }
-    readonly property real spread: (dense || tight ? 8 : tiles !== null ? 24 : 12) * Theme.unit
+    readonly property real spread: (dense || tight ? 8 : tiles !== null ? 22 : 12) * Theme.unit
     // Whether a line over the page tells which page it is.
     readonly property bool lined: upright && besides
     // How far below it the first card begins.
@@ -138,7 +138,7 @@ PageFrame {
             return null
         for (const size of [34, 33, 32, 31, 30, 29].map(Theme.size))
             for (const height of [88, 84, 80, 78, 77, 76, 75, 74, 72, 68])
-                if (form.items.every(item => tiled(item, size)) && tiledHeight(height) - 24 * Theme.unit <= room)
+                if (form.items.every(item => tiled(item, size)) && tiledHeight(height) - 22 * Theme.unit <= room)
                     return {size, height: height * Theme.unit}
         return null
     }
@@ -153,7 +153,7 @@ PageFrame {
             return true
         if (item.kind !== "single")
             return false
-        const half = (inner - 12 * Theme.unit) / 2 - 79 * Theme.unit
+        const half = (inner - 16 * Theme.unit) / 2 - 79 * Theme.unit
         // Small letters are set on whole pixels, and take a little more.
         return item.options.every(option => 1.01 * thin.advanceWidth(option.text) * size / 100 <= half)
     }
@@ -184,8 +184,8 @@ PageFrame {
         for (const item of form.items) {
             const lines = Math.ceil(letters.advanceWidth(item.text) * asking / 100 / inner)
             const rows = Math.ceil((item.options?.length ?? 0) / 2)
-            tall += form.hidden.includes(item.id) ? 0 : item.kind === "integer" ? (ranged(item) ? 132 : 140) * Theme.unit
-                : lines * 1.37 * asking + (60 + (height + 12) * rows) * Theme.unit
+            tall += form.hidden.includes(item.id) ? 0 : item.kind === "integer" ? (ranged(item) ? 130 : 138) * Theme.unit
+                : lines * 1.37 * asking + (50 + (height + 16) * rows) * Theme.unit
         }
         return tall
     }
@@ -380,7 +380,7 @@ PageFrame {
             room: view.room - view.lead
             more: view.words["scroll-more"]
             // Further apart where the page has room for it; and what belongs together, too.
-            readonly property real plain: summed(box => box.plain + (view.tiles !== null || view.ample || view.easy ? 24 : 30) * Theme.unit)
+            readonly property real plain: summed(box => box.plain + (view.tiles !== null ? 22 : view.ample || view.easy ? 24 : 30) * Theme.unit)
             readonly property int rows: summed(box => box.rows)
             // How much higher than usual each row of options of an upright page is.
             readonly property real grown: view.easy && rows > 0 ? Math.max(0, Math.min(16 * Theme.unit, Math.floor((room - plain) / rows))) : 0

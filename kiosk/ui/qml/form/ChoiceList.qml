@@ -89,8 +89,8 @@ Flow {
         for (let i = 0; i < buttons.count; i++)
             wishes.push((buttons.itemAt(i) as Choosable)?.implicitWidth ?? 0)
         if (paired > 0)
-            // The last of an odd number has its row to itself.
-            return wishes.map((_, at) => Math.floor(at === wishes.length - 1 && at % 2 === 0 ? width : (width - gridGap) / 2))
+            // The last of an odd number is as wide as the others: a wider one would look as if it weighed more.
+            return wishes.map(() => Math.floor((width - gridGap) / 2))
         // As many rows as they would take side by side, or one less than in columns of their own.
         let most = 1, end = -packed
         for (const wish of wishes) {

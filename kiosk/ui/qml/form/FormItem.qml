@@ -71,7 +71,7 @@ Item {
     readonly property real addable: alone || beside ? 0 : (ample ? 48 : 32) * Theme.unit
     readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : ample ? Theme.textSize > 1 ? 18 : 36 : easy ? 18 : airy ? 22 : paired > 0 ? 12 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
-    readonly property real usualMargin: alone ? 0 : own ? Math.max(10 * Theme.unit, rowMargin - taken / 2) : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : ample ? 12 : easy ? inline ? 28 : 30 : airy ? 26 : paired > 0 ? inline ? ranged ? 16 : 8 : 17 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
+    readonly property real usualMargin: alone ? 0 : own ? Math.max(10 * Theme.unit, rowMargin - taken / 2) : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : ample ? 12 : easy ? inline ? 28 : 30 : airy ? 26 : paired > 0 ? inline ? ranged ? 16 : 8 : 16 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
     readonly property real taken: flank ? Math.max(0, told.height - rowHeight) : 0
     // Letters have some air above them already; what stands below them does not.
@@ -333,7 +333,7 @@ Item {
             grown: box.grown
             easy: box.easy
             paired: box.paired
-            gridGap: (box.calm && box.paired === 0 ? 18 : 12) * Theme.unit
+            gridGap: (box.paired > 0 ? 16 : box.calm ? 18 : 12) * Theme.unit
             usual: box.paired > 0 ? box.pairHeight : (box.tight || (Theme.textSize > 1.15 && !box.large) || box.form.items.length > 3 ? 62 : box.airy ? 84 : 76) * Theme.unit
             onPicked: option => several ? box.form.toggle(box.item.id, option) : box.form.choose(box.item.id, option)
         }
