@@ -530,8 +530,12 @@ def test_cards_stand_at_the_same_places_on_all_pages_of_four_ratings(
     kiosk: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
     pages = list(rating_pages(kiosk, layout))
-    assert len({tuple(round(card.y()) for _, card, _, _ in page) for page in pages}) == 1
-    assert len({round(card.height()) for page in pages for _, card, _, _ in page}) == 1
+    assert len({(round(page[0][1].top()), round(page[-1][1].bottom())) for page in pages}) == 1
+    # On a wide page ten points have a higher card, for which the others make room.
+    even = [page for page in pages if layout.width < layout.height or {points for points, *_ in page} == {FIVE}]
+    assert len(even) > 3
+    assert len({tuple(round(card.y()) for _, card, _, _ in page) for page in even}) == 1
+    assert len({round(card.height()) for page in even for _, card, _, _ in page}) == 1
     gaps = {
         round(after.top() - card.bottom()) for page in pages for (_, card, _, _), (_, after, _, _) in pairwise(page)
     }
@@ -546,12 +550,25 @@ def test_scales_of_a_wide_page_of_ratings_stand_at_the_same_places_on_all_pages(
     kiosk: tuple[Window, StudyConfig],
 ) -> None:
     places = {
-        (round(scale.x()), round(scale.y() - card.y()), round(scale.width()), round(scale.height()))
+        (round(scale.x()), round(scale.center().y() - card.center().y()), round(scale.width()), round(scale.height()))
         for page in rating_pages(kiosk, Layout(1920, 1080))
         for points, card, _, scale in page
         if points == FIVE
     }
     assert len(places) == 1
+
+
+def test_ten_points_of_a_wide_page_are_as_large_as_five_and_stand_below_their_question(
+    kiosk: tuple[Window, StudyConfig],
+) -> None:
+    *_, (*fives, (points, card, shown, scale)) = rating_pages(kiosk, Layout(1920, 1080))
+    assert points == 10
+    assert len({round(five.height()) for _, five, _, _ in fives}) == 1
+    assert {(round(five.height()), round(five.right())) for *_, five in fives} == {
+        (round(scale.height()), round(scale.right()))
+    }
+    assert card.top() + 24 < shown.top() < shown.bottom() + 12 < scale.top() < scale.bottom() < card.bottom() - 24
+    assert abs((shown.top() - card.top()) - (card.bottom() - scale.bottom())) < 12
 
 
 def test_a_statement_of_an_upright_page_of_ratings_is_as_far_from_its_scale_in_one_line_as_in_two(

@@ -29,7 +29,7 @@ PageFrame {
     readonly property real scaleWidth: flank?.scaleWidth ?? 0.54 * inner
     // How high a row is, and how much of it is above and below that.
     readonly property real rowHeight: flank?.height ?? 98 * Theme.unit + 1.37 * Theme.size(28)
-    readonly property real rowMargin: flank !== null ? spareMargin(rowHeight) : 18 * Theme.unit
+    readonly property real rowMargin: flank !== null ? spareMargin(flank.height, flank.tall) : 18 * Theme.unit
     FontMetrics {
         id: letters
         font { pixelSize: 100; bold: true }
@@ -63,39 +63,59 @@ PageFrame {
         }
         return tall <= room
     }
-    // The largest points, words, letters and fewest lines whose rows fit: the text has the width that a scale leaves.
+    // How rows look with the words for their ends at both sides. Many points stand below their question, in the card's
+    // width; beside it where there is no height for that, and then with their words below them.
     function flanks(): var {
-        if (!rates())
-            return null
-        // The words of a row of many points stand below them, in its width.
-        const longer = form.items.filter(item => scales(item) && item.points > 7)
+        return !rates() ? null : form.items.some(many) ? flanked(true) ?? flanked(false) : flanked(false)
+    }
+    function many(item: var): bool {
+        return scales(item) && item.points > 7
+    }
+    // The largest points, words, letters and fewest lines whose rows fit: the text has the width that a scale leaves.
+    function flanked(over: bool): var {
+        const longer = form.items.filter(many), shorter = form.items.filter(item => !many(item))
+        const beside = over ? shorter : form.items
         const points = Math.max(1, ...form.items.map(item => scales(item) && item.points <= 7 ? item.points : 5))
-        const widest = Math.max(0, ...longer.map(item => item.points * 1.24 * 72 * Theme.unit))
+        const widest = over ? 0 : Math.max(0, ...longer.map(item => item.points * 1.24 * 72 * Theme.unit))
         for (const [dot, word, letter, most] of [[100, 32, 36, 2], [100, 32, 34, 2], [100, 32, 32, 2], [100, 32, 32, 3],
             [92, 30, 36, 2], [92, 30, 32, 2], [92, 30, 32, 3], [84, 28, 36, 2], [84, 28, 32, 2], [84, 28, 29, 2], [84, 28, 29, 3]]) {
             const point = dot * Theme.unit, end = Theme.size(word), text = Theme.size(letter)
-            const left = folded("left", end), right = folded("right", end)
+            const left = folded(beside, "left", end), right = folded(beside, "right", end)
             const scaleWidth = Math.max(widest, left + right + 2 * Theme.gap + (points + 0.27 * (points - 1)) * point)
             const textWidth = inner - scaleWidth - 2 * Theme.gap
-            const counts = form.items.map(item => lines(item.shown, text, textWidth))
-            const height = Math.max(point, longer.length > 0 ? 76 * Theme.unit + 1.37 * end : 0, 1.37 * text * Math.max(2, ...counts))
-            const reach = 1.03 * Math.max(0, ...longer.map(item => Math.max(thin.advanceWidth(item.left), thin.advanceWidth(item.right)))) * end / 100
-            if (reach < scaleWidth / 2 - Theme.gap && textWidth > 0.3 * inner && Math.max(...counts) <= most && spareMargin(height) >= 14 * Theme.unit)
-                return {point, end, left, right, scaleWidth, textWidth, text, height}
+            const counts = beside.map(item => lines(item.shown, text, textWidth))
+            const height = Math.max(point, longer.length > 0 && !over ? 76 * Theme.unit + 1.37 * end : 0, 1.37 * text * Math.max(2, ...counts))
+            const tall = over ? 1.37 * text + 18 * Theme.unit + point : height
+            const fits = over ? longer.every(item => crowned(item, point, end, text)) : longer.every(item => reach(item, end) < scaleWidth / 2 - Theme.gap)
+            if (fits && textWidth > 0.3 * inner && Math.max(0, ...counts) <= most && spareMargin(height, tall) >= 14 * Theme.unit)
+                return {point, end, left, right, scaleWidth, textWidth, text, height, over, tall}
         }
         return null
     }
-    // What the page's height leaves above and below each row that is so high, up to a limit.
-    function spareMargin(height: real): real {
-        const rows = Math.max(1, form.items.filter(item => !form.hidden.includes(item.id)).length)
-        return Math.min(44 * Theme.unit, (room / rows - height - spread) / 2)
+    // How wide the longer word for an end of a scale is.
+    function reach(item: var, size: real): real {
+        return 1.03 * Math.max(thin.advanceWidth(item.left), thin.advanceWidth(item.right)) * size / 100
+    }
+    // Whether a question and a word that it is missed fit one line, and its points and the words for their ends another.
+    function crowned(item: var, point: real, end: real, text: real): bool {
+        const note = Math.max(letters.advanceWidth(words["form-missing"]), letters.advanceWidth(words["form-skipped"])) * Theme.small / 100
+        const ends = (thin.advanceWidth(item.left) + thin.advanceWidth(item.right)) * end / 100
+        return 1.03 * (letters.advanceWidth(item.shown) * text / 100 + note) + 1.25 * Theme.gap <= inner
+            && 1.03 * ends + 2 * Theme.gap + (item.points + 0.24 * (item.points - 1)) * point <= inner
+    }
+    // What the page's height leaves above and below each row that is so high, up to a limit. Rows of many points may be
+    // higher than the others.
+    function spareMargin(height: real, tall: real): real {
+        const rows = form.items.filter(item => !form.hidden.includes(item.id))
+        const all = rows.reduce((sum, item) => sum + (many(item) ? tall : height), 0)
+        return Math.min(44 * Theme.unit, ((room - all) / Math.max(1, rows.length) - spread) / 2)
     }
     // How wide the words for these ends are, in two lines if they are long. In steps: so the scales of pages with almost
     // the same words stand at one place.
-    function folded(end: string, size: real): real {
+    function folded(items: var, end: string, size: real): real {
         const wide = words => thin.advanceWidth(words.join(" ")) * size / 100
         let most = 0
-        for (const item of form.items) {
+        for (const item of items) {
             const words = item[end].split(" ")
             most = Math.max(most, wide(words) <= 5.4 * size ? wide(words)
                 : Math.min(...words.map((_, at) => Math.max(wide(words.slice(0, at)), wide(words.slice(at))))))

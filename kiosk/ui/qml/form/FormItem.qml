@@ -23,6 +23,8 @@ Item {
     property bool own: false
     // How the row looks if they stand at both sides of the scale instead, level with it; null if they do not.
     property var flank: null
+    // Whether its scale of many points stands below its question in such a row.
+    readonly property bool crowned: (flank?.over ?? false) && item.kind === "likert" && item.points > 7
     // How high a row is, and how much of it is above and below that.
     property real rowHeight: 0
     property real rowMargin: 0
@@ -75,7 +77,7 @@ Item {
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
     readonly property real taken: flank ? Math.max(0, told.height - rowHeight) : 0
     // Letters have some air above them already; what stands below them does not.
-    readonly property real raised: alone || beside || inline || dense ? 0 : 4 * Theme.unit
+    readonly property real raised: crowned ? 5 * Theme.unit : alone || beside || inline || dense ? 0 : 4 * Theme.unit
     readonly property var ways: ({
         likert: points, differential: points, pictures: points, slider: line, single: choice, multiple: choice,
         integer: number, text: letters, page: null
@@ -148,12 +150,12 @@ Item {
             readonly property real axis: box.flank ? middle : box.own ? Math.max((height - way.height + scaled) / 2 + 0.3 * box.rowMargin, told.height / 2 - 8 * Theme.unit) : middle
             // Rows of one line and of two are as high; with words for its ends it is as high as a scale and a line of words.
             readonly property real middle: Math.max(box.own ? box.rowHeight : scaled, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
-            height: box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : box.asks + (way.active ? content.spacing + way.height : 0)
+            height: box.crowned ? box.flank.tall : box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : box.asks + (way.active ? content.spacing + way.height : 0)
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.leaves / 2
-                width: box.beside ? box.textWidth : box.inline ? asked.width - 470 * Theme.unit : asked.width
+                y: box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.leaves / 2
+                width: box.beside && !box.crowned ? box.textWidth : box.inline ? asked.width - 470 * Theme.unit : asked.width
                 spacing: box.inline ? 0 : box.ample ? 4 * Theme.unit : content.spacing
                 Balanced {
                     id: question
@@ -181,7 +183,7 @@ Item {
                 }
                 PlainText {
                     width: parent.width
-                    visible: box.missed
+                    visible: box.missed && !box.crowned
                     text: box.refused ? box.words["form-refused"] : box.form.wrong.includes(box.item.id) ? box.item.wrong ?? box.words["form-missing"]
                         : box.words[box.item.required ? "form-missing" : "form-skipped"]
                     font { pixelSize: Theme.small; bold: true }
@@ -199,11 +201,20 @@ Item {
                 font.pixelSize: Theme.size(32)
                 color: Theme.faintInk
             }
+            // A row whose question has a line to itself has no height for a second.
+            PlainText {
+                visible: box.missed && box.crowned
+                x: Theme.across(question.contentWidth + 1.25 * Theme.gap, width, asked.width)
+                y: told.y + question.y + question.baselineOffset - baselineOffset
+                text: box.words[box.item.required ? "form-missing" : "form-skipped"]
+                font { pixelSize: Theme.small; bold: true }
+                color: Theme.deepAmber
+            }
             Loader {
                 id: way
-                readonly property real room: box.beside ? box.scaleWidth : asked.width
-                x: Theme.across(box.beside ? asked.width - room : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.flank ? asked.middle - height / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.y + told.height + content.spacing
+                readonly property real room: box.beside && !box.crowned ? box.scaleWidth : asked.width
+                x: Theme.across(box.crowned ? 0 : box.beside ? asked.width - room : box.inline ? asked.width - width : 0, width, asked.width)
+                y: box.crowned ? asked.height - height : box.flank ? asked.middle - height / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.y + told.height + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
@@ -279,6 +290,7 @@ Item {
             headed: box.headed
             own: box.own
             flank: box.flank
+            crowned: box.crowned
             lift: box.own ? 0 : box.margin + asked.middle - size / 2 + 8 * Theme.unit
             item: box.item.id
             label: box.item.text

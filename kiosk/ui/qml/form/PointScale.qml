@@ -25,6 +25,8 @@ Item {
     property bool own: false
     // How its row looks if they stand at both sides of the points instead, level with them; null if they do not.
     property var flank: null
+    // Whether it has the width of its card then, below its question.
+    property bool crowned: false
     // How far above the points they stand then.
     property real lift: 0
     // Whether a row of small points is given as much height as one of large ones.
@@ -36,7 +38,7 @@ Item {
     // Whether there are more points than stand well in a row with the words for their ends: they then have its width,
     // from edge to edge, and the words stand below them.
     readonly property bool many: points > 7 && !pictured
-    readonly property bool spread: flank !== null && many
+    readonly property bool spread: flank !== null && many && !crowned
     readonly property real size: spread ? Math.min(76 * Theme.unit, filling) : flank?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
     // How much of that height it leaves, above itself and below.
     readonly property real inset: even && below && !alone && !pictured ? Math.max(0, (wish - size) / 2) : 0
@@ -44,8 +46,8 @@ Item {
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real most: 250 * Theme.unit * Theme.textSize
     readonly property bool roomy: lowest.implicitWidth + highest.implicitWidth + 2 * Theme.gap + points * size + least <= width
-    readonly property real leftRoom: flank ? flank.left : roomy ? lowest.implicitWidth : Math.min(lowest.implicitWidth, most)
-    readonly property real rightRoom: flank ? flank.right : roomy ? highest.implicitWidth : Math.min(highest.implicitWidth, most)
+    readonly property real leftRoom: crowned ? lowest.implicitWidth : flank ? flank.left : roomy ? lowest.implicitWidth : Math.min(lowest.implicitWidth, most)
+    readonly property real rightRoom: crowned ? Math.max(flank?.right ?? 0, highest.implicitWidth) : flank ? flank.right : roomy ? highest.implicitWidth : Math.min(highest.implicitWidth, most)
     readonly property real spare: width - leftRoom - rightRoom - 2 * Theme.gap - points * size
     readonly property real least: 0.42 * size * (points - 1)
     readonly property bool below: spread || !flank && (alone || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least))
