@@ -278,7 +278,7 @@ class Renderer:
         self._calming = self._clock.after(FEELING_MS, partial(self.screens.avatar.feel, None))
 
     def _let_be_rated(self, *, rated: bool) -> None:
-        """Let the avatar leave and a robot look aside while they are rated; both come back."""
+        """Let the avatar turn its back and a robot look aside while they are rated; both come back."""
         if rated == self._is_rated:
             return
         self._is_rated = rated

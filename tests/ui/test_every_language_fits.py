@@ -76,7 +76,7 @@ MARGINS = 170
 SPEAKING = {"attract", "introduction", "practice", "game", "result", "thanks"}
 """The screens on which the helper says something."""
 RATED = {"trust", "four ratings", "six ratings", "four ratings, missing"}
-"""The pages on which the helper is rated, and has left."""
+"""The pages on which the helper is rated, and turns its back."""
 LATER = {
     "form": {"about you", "about you, missing", "trust", "four ratings", "six ratings", "four ratings, missing"},
     "game": {"waiting"},
@@ -294,7 +294,10 @@ def assert_all_can_be_read(shown: QQuickWindow, moment: str) -> list[QQuickItem]
     buttons = [
         Part(item, whole(item).adjusted(1, 1, -1, -1), pane) for item, pane in every if not item.inherits("QQuickText")
     ]
-    for one, other in crossings([*written, *buttons]):
+    drawings = [find_item(shown.contentItem(), name) for name in ("turned-away", "progress")]
+    drawn = [Part(item, whole(item), None) for item in drawings if item is not None]
+    assert all(inside.contains(part.place) for part in drawn), moment
+    for one, other in crossings([*written, *buttons, *drawn]):
         apart = not belongs(one.item, other.item) and not belongs(other.item, one.item)
         assert not apart, (moment, one.told, other.told)
     return [item for item, _ in every]
@@ -583,6 +586,22 @@ def test_a_statement_of_an_upright_page_of_ratings_is_as_far_from_its_scale_in_o
     assert 30 <= min(gaps) <= 44
 
 
+@pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920), Layout(1080, 1920, robot=True)], ids=str)
+def test_the_avatar_shows_its_back_at_one_place_on_the_pages_that_rate_it_and_no_robot_does(
+    kiosk: tuple[Window, StudyConfig], layout: Layout
+) -> None:
+    screens, ground = kiosk[0].screens, kiosk[0].shown.contentItem()
+    places = []
+    for moment in shown_in(kiosk, layout, ("about you", "trust", "four ratings")):
+        screens.avatar.leave(away=moment in RATED)
+        lay_out(kiosk[0].shown)
+        back = find_item(ground, "turned-away")
+        assert (back is not None) == (moment in RATED and not layout.robot)
+        places += [] if back is None else [whole(back)]
+    screens.avatar.leave(away=False)
+    assert len({place.left() for place in places}) == (0 if layout.robot else 1)
+
+
 @pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1280, 800), Layout(1080, 1920)], ids=str)
 def test_a_long_title_of_a_questionnaire_stands_clear_of_the_controls(
     kiosk: tuple[Window, StudyConfig], layout: Layout
@@ -592,8 +611,10 @@ def test_a_long_title_of_a_questionnaire_stands_clear_of_the_controls(
     window.screens.avatar.leave(away=True)
     for items in (ASKED["trust"].items, ASKED["trust"].items[:1]):
         window.screens.form.show(items, 10, 12, (), {"en": title})
-        lay_out(window.shown)
-        assert_all_can_be_read(window.shown, f"{len(items)} items")
+        for board_on_right in (True, False):
+            window.shown.setProperty("boardOnRight", board_on_right)
+            lay_out(window.shown)
+            assert_all_can_be_read(window.shown, f"{len(items)} items")
     window.screens.avatar.leave(away=False)
     let_go(window.shown)
 

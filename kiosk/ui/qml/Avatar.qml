@@ -173,33 +173,6 @@ Item {
     Behavior on turnX { enabled: avatar.motion > 0; NumberAnimation { duration: avatar.motion; easing.type: Easing.InOutQuad } }
     Behavior on turnY { enabled: avatar.motion > 0; NumberAnimation { duration: avatar.motion; easing.type: Easing.InOutQuad } }
 
-    // An ear: a folded leaf on a hinge. Ears carry the mood into the silhouette.
-    component Ear: Shape {
-        id: ear
-        required property int side      // the light half faces inwards
-        width: 80; height: 110
-        antialiasing: true
-        transformOrigin: Item.Bottom
-        ShapePath {
-            strokeWidth: 8
-            strokeColor: "#1F5F6B"
-            fillColor: "#1F5F6B"
-            joinStyle: ShapePath.RoundJoin
-            PathSvg { path: "M 40 110 C 0 96 -2 44 40 6 C 82 44 80 96 40 110 Z" }
-        }
-        ShapePath {
-            strokeWidth: -1
-            fillColor: "#8EC3D9"
-            PathSvg { path: `M 40 110 C ${40 - ear.side * 34} 92 ${40 - ear.side * 36} 46 40 12 C ${40 - ear.side * 6} 46 ${40 - ear.side * 6} 80 40 110 Z` }
-        }
-        ShapePath {
-            strokeWidth: 5
-            strokeColor: "#1F5F6B"
-            fillColor: "#F2A33A"
-            PathAngleArc { centerX: 40; centerY: 110; radiusX: 13; radiusY: 13; sweepAngle: 360 }
-        }
-    }
-
     component Groove: ShapePath {
         strokeColor: "#1F5F6B"
         fillColor: "transparent"
@@ -215,36 +188,7 @@ Item {
             width: 400; height: 440
             clip: true
 
-            Shape {
-                y: avatar.trail.sh - 3 * avatar.breath
-                antialiasing: true
-                ShapePath { // neck
-                    strokeWidth: -1
-                    fillColor: "#C9B58B"
-                    PathRectangle { x: 166; y: 310; width: 68; height: 70; radius: 16 }
-                }
-                ShapePath { // its bellows
-                    strokeWidth: 4
-                    strokeColor: "#AE9A70"
-                    capStyle: ShapePath.FlatCap
-                    fillColor: "transparent"
-                    PathSvg { path: "M 166 344 C 186 352 214 352 234 344" }
-                }
-                ShapePath {
-                    strokeWidth: -1
-                    fillColor: "#2E7784"
-                    PathSvg { path: "M 76 462 C 72 390 104 362 152 356 C 180 372 220 372 248 356 C 296 362 328 390 324 462 Z" }
-                }
-                Groove { // arms
-                    strokeWidth: 4
-                    PathSvg { path: "M 122 452 C 122 426 118 414 110 404 M 278 452 C 278 426 282 414 290 404" }
-                }
-                Groove { // collar
-                    strokeWidth: 12
-                    strokeColor: "#F2A33A"
-                    PathSvg { path: "M 146 356 C 180 380 220 380 254 356" }
-                }
-            }
+            AvatarBust { y: avatar.trail.sh - 3 * avatar.breath }
             Shape { // the loudspeaker glows with the voice, so one sees who speaks without looking at the mouth
                 y: avatar.trail.sh - 3 * avatar.breath
                 antialiasing: true
@@ -267,17 +211,9 @@ Item {
             rotation: avatar.pose.tilt
             scale: 0.9 * avatar.pose.zoom
 
+            AvatarHood {}
             Shape {
                 antialiasing: true
-                ShapePath { // hood
-                    strokeWidth: -1
-                    fillGradient: LinearGradient {
-                        x1: 0; x2: 0; y1: 70; y2: 340
-                        GradientStop { position: 0; color: "#3A8794" }
-                        GradientStop { position: 1; color: "#1F5F6B" }
-                    }
-                    PathSvg { path: "M 200 66 C 290 66 346 122 348 212 C 350 300 296 342 200 342 C 104 342 50 300 52 212 C 54 122 110 66 200 66 Z" }
-                }
                 ShapePath { // face plate
                     strokeWidth: 6
                     strokeColor: "#E9D8B4"
@@ -290,8 +226,8 @@ Item {
                 }
             }
 
-            Ear { side: -1; x: 44; y: 22; rotation: -avatar.trail.earL }
-            Ear { side: 1; x: 276; y: 22; rotation: avatar.trail.earR }
+            AvatarEar { side: -1; x: 44; y: 22; rotation: -avatar.trail.earL }
+            AvatarEar { side: 1; x: 276; y: 22; rotation: avatar.trail.earR }
 
             Item {
                 // In whole pixels: a face that drifts by less is drawn anew for nothing.

@@ -223,6 +223,15 @@ PageFrame {
     // Whether the keys of a number stand in the helper's place.
     readonly property bool keysBeside: keyboard.visible && keyboard.numbers
 
+    // What is over the first card in the title's line beside its words.
+    readonly property rect bare: {
+        const words = titleWidth + (besides ? progress.follows ? Theme.gap + progress.width : column : 0)
+        const edge = (width - column) / 2
+        return mirrored ? Qt.rect(edge, 0, column - cornered - words, begin + home.y) : Qt.rect(edge + words, 0, width - edge - words, begin + home.y)
+    }
+    // Whether it is and stays so.
+    readonly property bool still: keyboard.field === null && (upright || !pane.long)
+
     // Or over other questions.
     readonly property bool keysOver: keyboard.visible && keyboard.numbers && upright && !alone
     // Pale letters would not have the contrast that was asked for.

@@ -227,6 +227,21 @@ Window {
             height: root.height
             focus: visible && root.kiosk.bare
             sourceComponent: Item {
+                // While the helper is rated it shows its back: on a wide page over the edge of the first card, where the
+                // title's line has room for it, and on an upright one beside the controls.
+                AvatarBack {
+                    objectName: "turned-away"
+                    readonly property real line: stage.x + formView.bare.x
+                    readonly property real from: root.wide ? line : steps.visible ? steps.x + steps.width : Theme.gap
+                    readonly property real to: root.wide ? Math.min(line + formView.bare.width, steps.x) : corner.x
+                    // At one place beside titles of any length, unless they are too long for that.
+                    readonly property real wished: !root.wide ? (from + to - width) / 2 : Theme.mirrored ? from + 3.6 * Theme.gap : to - 3.6 * Theme.gap - width
+                    height: (root.wide ? 122 : 112) * Theme.unit
+                    x: Math.round(Math.max(from + Theme.gap, Math.min(to - Theme.gap - width, wished)))
+                    y: Math.round((root.wide ? stage.y + formView.bare.height : root.room) - height)
+                    visible: root.avatar.present && helper.gone && formView.still && to - from >= width + 2 * Theme.gap
+                        && (root.wide ? y > 0 : formView.y + formView.foot + formView.way.height < y)
+                }
                 FormView {
                     id: formView
                     x: stage.x
@@ -408,7 +423,8 @@ Window {
     // Above the assistant; beside a robot and on an upright screen at the bottom, where a sentence leaves room.
     Corner {
         id: corner
-        readonly property bool atLeft: root.wide && !root.whole && root.boardOnRight
+        // The title of a page without an onlooker begins at the left.
+        readonly property bool atLeft: root.wide && !root.whole && root.boardOnRight && !stage.unwatched
         kiosk: root.kiosk
         words: root.words
         canRepeat: root.avatar.bubble !== "" && ["practice", "game"].includes(root.kiosk.screen)
@@ -424,6 +440,7 @@ Window {
     }
     // How far the visit is; quiet, beside the controls or in the other corner.
     Progress {
+        id: steps
         steps: root.kiosk.steps
         step: root.kiosk.step
         // Not below a line of another number of parts.

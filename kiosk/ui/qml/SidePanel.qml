@@ -38,6 +38,8 @@ Item {
     property real lift: 0
     // Whether it speaks to those who pass.
     property bool calls: false
+    // Whether it is out of sight.
+    readonly property bool gone: face.gone === 1
     readonly property real faceMiddle: face.y + 0.56 * face.height
     // A sentence that was read long ago, and is not shown any more.
     property string stale: ""

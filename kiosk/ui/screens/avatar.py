@@ -68,7 +68,7 @@ class AvatarScreen(QObject):
             self.felt.emit()
 
     def leave(self, *, away: bool) -> None:
-        """Go out of sight while people rate it, or come back."""
+        """Turn its back while people rate it, or come back."""
         if away != self._away:
             self._away = away
             self.changed.emit()
@@ -160,7 +160,7 @@ class AvatarScreen(QObject):
 
     @Property(bool, notify=changed)
     def away(self) -> bool:
-        """Whether it is out of sight while people rate it."""
+        """Whether its face is out of sight while people rate it."""
         return self._away
 
     @Property(str, notify=said)
