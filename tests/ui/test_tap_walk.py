@@ -8,7 +8,7 @@ from pytestqt.qtbot import QtBot
 from tests.ui.tap_walk import PAGE, Watch, section, walks
 
 MOST_TO_ITS_PIXEL = 12
-MOST_TO_ITS_MARK = 36
+MOST_TO_ITS_MARK = 37
 
 
 @pytest.fixture
