@@ -633,8 +633,9 @@ class SessionRunner:
         self._before_effects(handled.outcome, record.code, returns=session.may_return)
         self._renderer.screens.kiosk.reach(session.stage.value)
         steps = self._renderer.steps(handled.outcome.effects)
-        # To draw a visitor's code is a step of its own.
-        return _Showing(handled, chain((None,), steps) if is_new else steps)
+        # To draw a visitor's code is a step of its own, and so is to begin a session.
+        apart = is_new or isinstance(handled.event, happened.SessionStarted)
+        return _Showing(handled, chain((None,), steps) if apart else steps)
 
     def _before_effects(self, outcome: Outcome, code: str, *, returns: bool) -> None:
         self._screen_changed = False
