@@ -95,6 +95,7 @@ console-disk-refuse = only { $free } free: no session can begin
 console-disk-unknown = how much is free cannot be seen
 console-database = Database
 console-backup-none = no copy yet
+console-backup-remedy = Press “{ console-backup }”
 console-backup-made = last copy { $ago }
 console-backup-failed = the last copy failed: { $why }
 console-backup-busy = being made …

@@ -95,6 +95,7 @@ console-disk-refuse = solo { $free } libres: nadie puede empezar
 console-disk-unknown = no se sabe cuánto queda libre
 console-database = Datos
 console-backup-none = aún no hay copia
+console-backup-remedy = Pulsa “{ console-backup }”
 console-backup-made = última copia { $ago }
 console-backup-failed = la última copia falló: { $why }
 console-backup-busy = en curso …

@@ -95,6 +95,7 @@ console-disk-refuse = solo { $free } liberi: nessuno può iniziare
 console-disk-unknown = non si sa quanto spazio resta
 console-database = Dati
 console-backup-none = ancora nessuna copia
+console-backup-remedy = Premi “{ console-backup }”
 console-backup-made = ultima copia { $ago }
 console-backup-failed = l’ultima copia non è riuscita: { $why }
 console-backup-busy = in corso …

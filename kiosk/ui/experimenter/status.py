@@ -216,7 +216,8 @@ def _database(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
     if state.last_backup is None:
         if state.copy:
             return HealthLine(name, state.copy, is_used=False)
-        return HealthLine(name, translate("console-backup-none"), remedy=translate("console-backup"), is_due=True)
+        missing, remedy = translate("console-backup-none"), translate("console-backup-remedy")
+        return HealthLine(name, missing, remedy=remedy, is_due=True)
     if state.last_backup.file is None:
         return HealthLine(name, translate("console-backup-failed", why=state.last_backup.why), is_ok=False)
     minutes = max(0, state.clocks.now_ms - state.last_backup.at_ms) // MS_PER_MINUTE

@@ -323,11 +323,12 @@ def test_the_notice_has_all_that_is_to_be_done_and_the_checks_only_what_is_well(
     window = assigner.app.window.contentItem()
     assert matters(assigner) == ["Database"]
     assert shows(window, "Disk")
-    tab_to(assigner, "health-backup")
+    tab_to(assigner, "action-backup")
     assigner.app.experimenter.upkeep.free_space = FreeSpace(100)
     assigner.wait_until(lambda: matters(assigner) == ["Disk", "Database"])
-    # What a press does stays last, and keeps the keyboard.
-    assert held(assigner) == "health-backup"
+    # The keyboard stays on the button that the notice names.
+    assert held(assigner) == "action-backup"
+    assert shows(window, "Press “Make a copy”")
     assert shows(window, "Disk: only 100 MiB free: make room this evening")
     assert not shows(window, "Disk")
     assigner.press(Qt.Key.Key_Return)

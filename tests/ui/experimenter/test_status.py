@@ -169,9 +169,16 @@ def test_what_is_not_in_use_is_no_fault_and_not_in_order_either(state: HealthInp
 def test_a_copy_that_was_never_made_is_no_fault_but_is_to_be_made() -> None:
     database = told(replace(WELL, last_backup=None))["Database"]
     assert (database.is_ok, database.is_due, database.message) == (True, True, "no copy yet")
-    assert database.remedy == "Make a copy"
     assert not told(WELL)["Database"].is_due
     assert not told(replace(WELL, last_backup=None, copy="after this session"))["Database"].is_due
+
+
+@pytest.mark.parametrize("language", CATALOGUES)
+def test_a_missing_copy_says_which_button_to_press_in_the_words_of_that_button(language: str) -> None:
+    catalogue = CATALOGUES[language]
+    remedies = [line.remedy for line in health_lines(replace(WELL, last_backup=None), catalogue) if line.is_due]
+    assert len(remedies) == 1
+    assert f"“{catalogue.text('console-backup')}”" in remedies[0]
 
 
 BEGAN = datetime(2027, 3, 1, 9, tzinfo=UTC)

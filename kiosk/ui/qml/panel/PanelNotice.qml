@@ -1,4 +1,4 @@
-// Everything that is to be done: a line for each matter, with what to do about it. A copy of the database is made right there.
+// Everything that is to be done: a line for each matter, with what to do about it.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -13,9 +13,6 @@ Rectangle {
     // The bar at its edge has the colour that warns; the ground is pale, so that the actions are seen first.
     readonly property real bar: 14 * Theme.unit
 
-    // A press does this one, so it comes last and is not made anew with the others: the keyboard would be lost with it.
-    readonly property var due: matters.find(matter => matter.is_due) ?? null
-
     // What to do stands behind what is wrong, in a column of its own, where both fit in one line; otherwise below it.
     // They are written a little smaller if they fit so.
     readonly property real room: width - 2 * inset - 1.4 * size
@@ -27,8 +24,8 @@ Rectangle {
     readonly property real written: beside && fitting < 1 ? Math.floor(fitting * size) : size
     readonly property real longest: Math.ceil(whole * written / size) + 2 * Theme.unit
     readonly property real second: longest + 1.5 * Theme.gap
-    // With a button among them, all lines are as high as what is seen of it.
-    readonly property real tall: due && beside ? Math.max(place.height, Math.ceil(1.5 * written)) : 0
+    // Lines of a few matters stand apart; many stay close, so that the page does not scroll for them.
+    readonly property real tall: beside ? Math.ceil((matters.length > 3 ? 1.5 : 2.15) * written) : 0
 
     function said(matter: var): string {
         return `${matter.name}: ${matter.message}`
@@ -38,7 +35,7 @@ Rectangle {
         return Math.ceil(Math.max(0, ...texts.map(text => letters.advanceWidth(text)))) + 2 * Theme.unit
     }
 
-    height: sentence.height + 1.2 * Theme.gap
+    height: sentence.height + (beside ? 0.6 : 1.2) * Theme.gap
     radius: Theme.radius
     color: Theme.amber
 
@@ -66,9 +63,9 @@ Rectangle {
     Column {
         id: sentence
         anchors { left: parent.left; right: parent.right; margins: notice.inset; verticalCenter: parent.verticalCenter }
-        spacing: notice.tall > 0 ? 0 : (notice.beside ? 4 : 8) * Theme.unit
+        spacing: notice.beside ? 0 : (notice.matters.length > 3 ? 8 : 14) * Theme.unit
         Repeater {
-            model: notice.matters.filter(matter => !matter.is_due)
+            model: notice.matters
             delegate: Row {
                 id: matter
                 required property var modelData
@@ -98,53 +95,6 @@ Rectangle {
                         font.pixelSize: notice.written
                         color: Theme.ink
                         wrapMode: Text.Wrap
-                    }
-                }
-            }
-        }
-        Row {
-            visible: notice.due !== null
-            spacing: 0.4 * notice.size
-            PanelMark {
-                anchors.verticalCenter: own.verticalCenter
-                well: false
-                size: notice.written
-            }
-            Flow {
-                id: own
-                // Where what to do stands below, the button is at the end of the line, or below it where that has no room.
-                readonly property bool shared: notice.beside || told.implicitWidth + Theme.gap + copy.width <= width
-                width: notice.room
-                PlainText {
-                    id: told
-                    width: notice.beside ? notice.second : own.shared ? own.width - copy.width : own.width
-                    height: own.shared ? Math.max(implicitHeight, place.height) : implicitHeight
-                    verticalAlignment: Text.AlignVCenter
-                    text: notice.due ? notice.said(notice.due) : ""
-                    font { pixelSize: notice.written; bold: true }
-                    color: Theme.ink
-                    wrapMode: Text.Wrap
-                }
-                // A finger reaches it above and below what is seen of it, so that the lines stay close.
-                Item {
-                    id: place
-                    width: copy.width
-                    height: copy.height - 2 * copy.topInset
-                    PanelButton {
-                        id: copy
-                        objectName: "health-backup"
-                        anchors.centerIn: parent
-                        width: Math.min(Math.ceil(implicitWidth), own.width)
-                        enabled: notice.panel.choices.backup === ""
-                        least: 68 * Theme.unit
-                        topInset: (Theme.upright ? 8 : 12) * Theme.unit
-                        bottomInset: topInset
-                        ground: Theme.white
-                        words: notice.due?.remedy ?? ""
-                        drawing: "M8.5 8 H20 V21 H8.5 Z M5 16 H4 V3 H15.5 V4.5"
-                        sign: 1.2 * notice.written
-                        font.pixelSize: notice.written
-                        onClicked: notice.panel.wish("backup", "")
                     }
                 }
             }
