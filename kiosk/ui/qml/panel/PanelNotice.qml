@@ -63,7 +63,7 @@ Rectangle {
     Column {
         id: sentence
         anchors { left: parent.left; right: parent.right; margins: notice.inset; verticalCenter: parent.verticalCenter }
-        spacing: notice.beside ? 0 : (notice.matters.length > 3 ? 8 : 14) * Theme.unit
+        spacing: notice.beside ? 0 : (notice.matters.length > 3 ? 8 : 11) * Theme.unit
         Repeater {
             model: notice.matters
             delegate: Row {
