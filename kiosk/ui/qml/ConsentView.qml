@@ -47,9 +47,13 @@ PageFrame {
         objectName: "read-more"
         visible: view.besides
         most: 0.45 * view.column
-        x: Theme.across(view.column - width, width, view.column)
-        // In the title's line.
-        y: -height - Theme.gap
+        // Right after the title on a wide screen, away from the steps of the visit; at the end of the line where it would
+        // nearly reach that.
+        readonly property real after: view.titleWidth + 40 * Theme.unit
+        readonly property bool follows: view.width > view.height && view.titleInOneLine && after + width + 2 * Theme.gap <= view.column
+        x: Theme.across(follows ? after : view.column - width, width, view.column)
+        // Level with the title's letters, and above the content where it is higher than they are.
+        y: Math.min(-height - Theme.gap, view.titleMiddle - height / 2)
         quiet: true
         font.pixelSize: Theme.reading
         horizontalPadding: 34 * Theme.unit

@@ -43,6 +43,9 @@ FocusScope {
     readonly property alias begin: body.y
     readonly property alias foot: ways.y
     readonly property real titleWidth: heading.contentWidth
+    // The middle of the capitals of the title's last line, as seen from the content, and whether it is the only one.
+    readonly property real titleMiddle: heading.y + heading.height - capitals.descent - 0.36 * heading.font.pixelSize - body.y
+    readonly property bool titleInOneLine: heading.lineCount === 1
     readonly property real above: 2 * Theme.gap
     readonly property real below: 1.6 * Theme.gap
 
@@ -75,6 +78,10 @@ FocusScope {
         return best
     }
 
+    FontMetrics {
+        id: capitals
+        font: heading.font
+    }
     PlainText {
         id: heading
         objectName: "page-title"
