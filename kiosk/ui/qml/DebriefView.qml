@@ -43,13 +43,21 @@ PageFrame {
     // Those that stand in pairs are cards, with this much around what they say.
     readonly property real inset: 0.75 * Theme.gap
     readonly property real insetAcross: Theme.gap
-    // How far a row is below the one before it: cards are close to the line that leads to them.
+    // How far a row is below the one before it: plain lines are close to the cards that they are about.
     function step(index: int): real {
-        return index === 0 ? 0 : (index === 1 ? 0.75 : 1) * Theme.gap
+        return index === 0 ? 0 : (index === 1 ? 0.75 : rows[index].length === 1 ? 0.6 : 1) * Theme.gap
     }
     // Heading and text of a plain point are one line, where that has room.
-    function runsOn(widths: var, size: real): bool {
-        return widths?.length === 2 && (widths[0] + widths[1] + 60) * size / 100 <= 0.99 * column
+    function runsOn(widths: var, size: real, leading = size): bool {
+        return widths?.length === 2 && widths[0] * leading / 100 + widths[1] * size / 100 + 0.45 * leading <= 0.995 * column
+    }
+    // How large such a heading is: larger than its text, where all of them have the width and the page has the height.
+    readonly property real headingSize: {
+        const plain = measuredRows.filter(row => row.length === 1).map(row => row[0])
+        const scanned = Math.floor(usual * Theme.unit / Math.max(1, debrief.squares)) * debrief.squares
+        const free = room - stacked(pairedSize) - between - 1.2 * Theme.gap - scanned - 2 * rim - 1.5 * Theme.gap
+        return [42, 41, 40].map(Theme.size).find(size => plain.every(widths => runsOn(widths, pairedSize, size))
+            && plain.length * Math.ceil(1.37 * (size - pairedSize)) <= free) ?? pairedSize
     }
     readonly property real between: rows.reduce((sum, row, index) => sum + step(index), 0)
     // How many lines has the one of this row that has most of them, and how high all rows are.
@@ -149,7 +157,7 @@ PageFrame {
         property bool bare: false
         property real tall: said
         readonly property real inset: bare ? 0 : view.inset
-        readonly property bool runsOn: bare && view.runsOn(view.measured(modelData.text, boldLetters), view.size)
+        readonly property bool runsOn: bare && view.runsOn(view.measured(modelData.text, boldLetters), view.size, view.headingSize)
         readonly property real said: runsOn ? lead.height : point.height
         height: tall + 2 * inset
         radius: Theme.radius
@@ -164,21 +172,25 @@ PageFrame {
             modelData: card.modelData
             sign: card.bare ? "" : modelData.sign
         }
-        Row {
+        Item {
             id: lead
             // The whole point, which is found by it in the preview.
             readonly property string text: card.modelData.text
+            readonly property var parts: card.runsOn ? view.sentences(text) : ["", ""]
             visible: card.runsOn
-            spacing: 0.3 * view.size
-            Repeater {
-                model: card.runsOn ? view.sentences(lead.text) : []
-                PlainText {
-                    required property string modelData
-                    required property int index
-                    text: modelData
-                    font { pixelSize: view.size; bold: index === 0 }
-                    color: Theme.ink
-                }
+            width: card.width
+            height: head.height
+            PlainText {
+                id: head
+                x: Theme.across(0, width, parent.width)
+                text: lead.parts[0]
+                font { pixelSize: view.headingSize; bold: true }
+            }
+            PlainText {
+                x: Theme.across(head.width + 0.3 * view.size, width, parent.width)
+                y: head.baselineOffset - baselineOffset
+                text: lead.parts[1]
+                font.pixelSize: view.size
             }
         }
     }
@@ -195,8 +207,8 @@ PageFrame {
             readonly property bool cardFirst: keepsake.there && texts.height + keepsake.height + apart > view.room
             width: pane.width
             height: texts.height + keepsake.height + (keepsake.there ? apart : 0)
-            // Lines and card stand further apart than the lines, by half of what is free; below cards, as far as their rows.
-            readonly property real apart: view.paired ? Theme.gap : Theme.gap + (view.signed ? Math.max(0, Math.min(1.5 * Theme.gap, (view.room - texts.height - keepsake.height - 1.34 * Theme.gap) / 2)) : 0)
+            // Lines and card stand further apart than the lines, by half of what is free; below cards, as far as from the way on.
+            readonly property real apart: view.paired ? Math.max(Theme.gap, Math.min(1.6 * Theme.gap, (view.room + Theme.gap - texts.height - keepsake.height) / 2)) : Theme.gap + (view.signed ? Math.max(0, Math.min(1.5 * Theme.gap, (view.room - texts.height - keepsake.height - 1.34 * Theme.gap) / 2)) : 0)
             Item {
                 id: texts
                 y: parts.cardFirst ? keepsake.height + parts.apart : 0
