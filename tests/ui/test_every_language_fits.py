@@ -35,7 +35,7 @@ from kiosk.ui.window import Window
 from tests import pseudo
 from tests.ui.headless import open_window
 
-SIZES = [(1280, 720), (1080, 1920)]
+SIZES = [(1280, 720), (720, 1280)]
 """Windows of the tests with further pages and languages.
 
 All lengths are shares of the window: in larger ones of the same shape pages stand alike, and whole pixels round less.
@@ -63,8 +63,8 @@ LAYOUTS = (
     Layout(1080, 1920),
     Layout(1280, 800),
     Layout(1366, 768),
-    Layout(1920, 1080, robot=True),
-    Layout(1080, 1920, robot=True),
+    Layout(1280, 720, robot=True),
+    Layout(720, 1280, robot=True),
 )
 SAME_SHAPE = LAYOUTS[3]
 """A window of the same shape as the first, which shows the middle size of texts in place of the largest."""
