@@ -18,7 +18,7 @@ from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import find_item
 from tests.samples import CATALOGUES
 from tests.ui.experimenter.conftest import LINE
-from tests.ui.headless import headless, short
+from tests.ui.headless import HALF, headless, short
 
 TINY = {"game": {"rows": 1, "columns": 2}, "stages": ("introduction", "game", "result")}
 
@@ -29,7 +29,7 @@ def test_the_first_screen_says_that_it_is_a_trial_with_the_shortcut_that_leaves_
 ) -> None:
     del qtbot
     settings = short(languages=[language], shortcuts={"quit": "Ctrl+Shift+F9"})
-    with headless(settings, tmp_path, kind=SessionKind.TRIAL) as app:
+    with headless(settings, tmp_path, kind=SessionKind.TRIAL, mode=HALF) as app:
         line = find_item(app.window.contentItem(), "trial")
         assert line is not None
         assert line.property("text") == CATALOGUES[language].text("attract-trial", shortcut="Ctrl+Shift+F9")
@@ -38,7 +38,7 @@ def test_the_first_screen_says_that_it_is_a_trial_with_the_shortcut_that_leaves_
 
 def test_a_kiosk_that_no_shortcut_leaves_names_none(tmp_path: Path, qtbot: QtBot) -> None:
     del qtbot
-    with headless(short(shortcuts={"quit": ""}), tmp_path, kind=SessionKind.TRIAL) as app:
+    with headless(short(shortcuts={"quit": ""}), tmp_path, kind=SessionKind.TRIAL, mode=HALF) as app:
         line = find_item(app.window.contentItem(), "trial")
         assert line is not None
         assert line.property("text") == "Trial: no PIN is set"
@@ -47,7 +47,7 @@ def test_a_kiosk_that_no_shortcut_leaves_names_none(tmp_path: Path, qtbot: QtBot
 @pytest.mark.parametrize("kind", [SessionKind.STUDY, SessionKind.SIMULATED])
 def test_what_is_no_trial_is_not_called_one(kind: SessionKind, tmp_path: Path, qtbot: QtBot) -> None:
     del qtbot
-    with headless(short(), tmp_path, kind=kind) as app:
+    with headless(short(), tmp_path, kind=kind, mode=HALF) as app:
         assert find_item(app.window.contentItem(), "trial") is None
 
 
@@ -60,7 +60,7 @@ def test_a_trial_takes_no_place_of_the_study_and_is_listed_as_what_it_is(tmp_pat
     del qtbot
     settings = Settings.model_validate({**TINY, "randomisation": {"target_n": {"tom": 1}, "block_size": 1}})
     for kind in (SessionKind.TRIAL, SessionKind.STUDY):
-        with headless(settings, tmp_path, kind=kind, condition=None) as app:
+        with headless(settings, tmp_path, kind=kind, condition=None, mode=HALF) as app:
             Rehearsal(app, 1).run()
     with open_repository(tmp_path) as stored:
         told = [(each.kind.name, each.participant, each.allocation_source) for each in stored.sessions()]
