@@ -235,7 +235,7 @@ Window {
                     readonly property real from: root.wide ? line : steps.visible ? steps.x + steps.width : Theme.gap
                     readonly property real to: root.wide ? Math.min(line + formView.bare.width, steps.x) : corner.x
                     // At one place beside titles of any length, unless they are too long for that.
-                    readonly property real wished: !root.wide ? (from + to - width) / 2 : Theme.mirrored ? from + 3.6 * Theme.gap : to - 3.6 * Theme.gap - width
+                    readonly property real wished: !root.wide ? (from + to - width) / 2 : Theme.mirrored ? from + 5.4 * Theme.gap : to - 5.4 * Theme.gap - width
                     height: (root.wide ? 122 : 112) * Theme.unit
                     x: Math.round(Math.max(from + Theme.gap, Math.min(to - Theme.gap - width, wished)))
                     y: Math.round((root.wide ? stage.y + formView.bare.height : root.room) - height)
