@@ -35,7 +35,8 @@ Rectangle {
         return Math.ceil(Math.max(0, ...texts.map(text => letters.advanceWidth(text)))) + 2 * Theme.unit
     }
 
-    height: sentence.height + (beside ? 0.6 : 1.2) * Theme.gap
+    // Whole pixels, so that the cards below it end level with the one beside them.
+    height: Math.ceil(sentence.height + (beside ? 0.6 : 1.2) * Theme.gap)
     radius: Theme.radius
     color: Theme.amber
 
