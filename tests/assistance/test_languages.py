@@ -70,14 +70,14 @@ class _Uses(Visitor):
 
 def messages(sources: dict[str, str]) -> dict[str, ast.Message]:
     """Every message of a catalogue's files."""
-    entries = (entry for source in sources.values() for entry in parsed(source))
-    return {entry.id.name: entry for entry in entries if isinstance(entry, ast.Message)}
+    return {name: message for source in sources.values() for name, message in parsed(source).items()}
 
 
 @cache
-def parsed(source: str) -> list[ast.EntryType]:
-    """Return what stands in a file."""
-    return FluentParser().parse(source).body
+def parsed(source: str) -> dict[str, ast.Message]:
+    """Return the messages of a file."""
+    entries = FluentParser().parse(source).body
+    return {entry.id.name: entry for entry in entries if isinstance(entry, ast.Message)}
 
 
 def variables(message: ast.Message) -> set[str]:

@@ -63,8 +63,13 @@ def read(folder: Path) -> StudyConfig:
     return read_study(Settings.read(folder / "study.toml"))
 
 
+@pytest.fixture(scope="module")
+def unchanged(original: Path) -> StudyConfig:
+    return read(original)
+
+
 @pytest.fixture
-def changed(original: Path, tmp_path: Path) -> Callable[..., list[Difference]]:
+def changed(original: Path, unchanged: StudyConfig, tmp_path: Path) -> Callable[..., list[Difference]]:
     """Return what differs once these texts of the study's files have become others."""
 
     def change(*edits: Edit) -> list[Difference]:
@@ -74,7 +79,7 @@ def changed(original: Path, tmp_path: Path) -> Callable[..., list[Difference]]:
             text = file.read_text("utf-8")
             assert old in text
             file.write_text(text.replace(old, new), "utf-8")
-        return compare(read(original), read(tmp_path / "changed"))
+        return compare(unchanged, read(tmp_path / "changed"))
 
     return change
 
