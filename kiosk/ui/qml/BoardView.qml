@@ -106,8 +106,8 @@ FocusScope {
     readonly property real widest: upright ? widestUpright : (width - 2 * side - numbers - 2 * Theme.gap) / Math.max(1, columns)
     readonly property real wish: 52 * Theme.unit + shelf + apart + numbers + pill.height
         + rows * widestUpright
-    // Where the cards end.
-    readonly property real foot: cards.y + cards.height
+    // Where the cards end, and what stands below them.
+    readonly property real foot: practises && skipsBelow ? skip.y + skip.height : pill.visible ? pill.y + pill.height : cards.y + cards.height
     // A whole number, or the last column might not fit into the sum of all by a rounding error.
     readonly property real fitting: Math.floor(Math.min(widest, (height - header - numbers - footer) / Math.max(1, rows)))
     // While the helper comes or goes, that passes several values. Cards and tray are laid out for the last of them.

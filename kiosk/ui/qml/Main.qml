@@ -397,7 +397,7 @@ Window {
         broad: !root.wide
         calls: root.accompanied && attractView.visible
         grows: reach > 0
-        lift: grows ? Math.max(0, Math.min(80 * Theme.unit, y - stage.y - boardPage.view.foot)) : 0
+        lift: boardPage.visible && !root.wide && root.avatar.present ? Math.max(0, y - stage.y - boardPage.view.foot) : 0
         leads: root.asking || !root.speaks
         hushed: root.asking
         readonly property bool done: boardPage.visible && boardPage.view.last.length > 0 && !root.board.practice
