@@ -55,7 +55,6 @@ Item {
     // Both parts as large as they are usually.
     component Measure: Text {
         readonly property real high: text === "" ? 0 : height
-        readonly property int lines: text === "" ? 0 : lineCount
         visible: false
         width: words.width
         textFormat: Text.PlainText
@@ -65,7 +64,7 @@ Item {
     Measure {
         id: usual
         text: words.text
-        font.pixelSize: bubble.cheered ? bubble.cheer : Theme.size(bubble.calls ? 50 : bubble.grows ? (large.lines + largeEnd.lines <= 2 ? 38 : 34) : 36)
+        font.pixelSize: bubble.cheered ? bubble.cheer : Theme.size(bubble.calls ? 50 : bubble.grows ? (large.high + largeEnd.high <= bubble.room - ending.apart ? 38 : 34) : 36)
         font.bold: bubble.cheered
     }
     Measure {
@@ -73,7 +72,7 @@ Item {
         text: ending.text
         font { pixelSize: usual.font.pixelSize; bold: true }
     }
-    // The same in large words, where there is room for two lines of them.
+    // The same in large words, where there is room for them.
     Measure {
         id: large
         text: bubble.grows ? words.text : ""
