@@ -549,12 +549,13 @@ FIVE = 5
 """How many points the scales have that stand at the same places on all pages."""
 
 
-def test_scales_of_a_wide_page_of_ratings_stand_at_the_same_places_on_all_pages(
-    kiosk: tuple[Window, StudyConfig],
+@pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)
+def test_scales_of_ratings_stand_at_the_same_places_on_all_pages(
+    kiosk: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
     places = {
         (round(scale.x()), round(scale.center().y() - card.center().y()), round(scale.width()), round(scale.height()))
-        for page in rating_pages(kiosk, Layout(1920, 1080))
+        for page in rating_pages(kiosk, layout)
         for points, card, _, scale in page
         if points == FIVE
     }

@@ -77,7 +77,7 @@ PageFrame {
             id: pane
             width: parent.width
             // The boxes keep some distance from the answers below, but where large texts need the room.
-            room: view.room - Math.max(0, view.way.over - 0.5 * Theme.gap) - (Theme.textSize <= 1.15 ? 0.5 * Theme.gap : 0)
+            room: view.room - Math.max(0, view.way.over - 0.5 * Theme.gap) - (Theme.textSize > 1.15 ? 0 : view.width < view.height ? 1.4 * Theme.gap : 0.5 * Theme.gap)
             more: view.words["scroll-more"]
             // What there is to tick stands apart from what is read, as far as the page has room.
             spacing: Math.max(0.5 * Theme.gap, Math.min((view.width < view.height ? 3.4 : 2.2) * Theme.gap, room - (view.short ? points.height : sheet.height) - boxes.height))
@@ -89,7 +89,7 @@ PageFrame {
                 // Larger on an upright screen, but where large texts need the room themselves.
                 readonly property bool airy: Theme.textSize <= 1.15 && (view.width < view.height
                     || (view.accompanied && 95 * view.read.length + 140 * view.consent.purposes.length + 85 <= pane.room / Theme.unit))
-                spacing: (airy ? 1.2 : 0.6) * Theme.gap
+                spacing: (airy ? view.width < view.height ? 0.9 : 1.2 : 0.6) * Theme.gap
                 // Two stand beside each other, which leaves height to what there is to tick.
                 columns: airy && view.width > view.height && view.read.length === 2 ? 2 : 1
                 columnSpacing: 2 * Theme.gap

@@ -48,7 +48,7 @@ FocusScope {
     // room beside the words.
     readonly property real stout: even && (!fills || Theme.textSize > 1.15) ? 22 * Theme.unit : 0
     readonly property real share: fills ? spread : Math.min(spread, Math.max(go.wish, no.wish))
-    readonly property real step: (fills && Theme.textSize <= 1.15 ? 0.8 : 0.5) * Theme.gap
+    readonly property real step: (fills && Theme.textSize <= 1.15 ? 1.1 : 0.5) * Theme.gap
     // How far they reach above their place.
     readonly property real over: Math.max(0, -go.y)
     // As high without a way on, so that the way back stands at the same place.

@@ -67,8 +67,9 @@ Item {
     // How high it is without all that, and how much can be added to the distances.
     readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asks + (way.active ? usualSpacing + (choices?.least ?? way.height) : 0)) + 2 * usualMargin
     // How much height its question and its scale leave of what two lines and a scale of five points take: on such a page
-    // all cards are as high, and stand at the same places on all pages.
-    readonly property real leaves: ample ? Math.max(0, Math.ceil((1 + question.lineHeight) * lineOf.height) - told.height) + 2 * ((way.item as PointScale)?.inset ?? 0) : 0
+    // all cards are as high, and cards and scales stand at the same places on all pages.
+    readonly property real lacks: ample ? Math.max(0, Math.ceil((1 + question.lineHeight) * lineOf.height) - told.height) : 0
+    readonly property real leaves: lacks + (ample ? 2 * ((way.item as PointScale)?.inset ?? 0) : 0)
     readonly property real asks: told.height + leaves
     readonly property real addable: alone || beside ? 0 : (ample ? 48 : 32) * Theme.unit
     readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : ample ? Theme.textSize > 1 ? 18 : 36 : easy ? 18 : airy ? 22 : paired > 0 ? 12 : calm ? 14 : 8) * Theme.unit
@@ -154,7 +155,7 @@ Item {
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.leaves / 2
+                y: box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : (box.lacks + box.leaves) / 2
                 width: box.beside && !box.crowned ? box.textWidth : box.inline ? asked.width - 470 * Theme.unit : asked.width
                 spacing: box.inline ? 0 : box.ample ? 4 * Theme.unit : content.spacing
                 Balanced {
