@@ -71,13 +71,26 @@ Item {
             readonly property real aside: Math.max(0.05 * tray.slot, Math.min(0.5 * tray.card + 0.03 * tray.slot, (width - tray.card) / 2 - 0.09 * tray.slot))
 
             // What is empty is lighter than the shelf. Where the two cards of a pair lie side by side, their place is one
-            // shape: two shapes in each would make the shelf look like a second board.
+            // shape: two outlines in each would make the shelf look like a second board.
             Rectangle {
                 visible: place.filled || tray.paired
                 anchors { fill: parent; margins: parent.height * 0.07 }
                 radius: height * 0.18
                 color: place.filled ? Theme.leaf : Theme.paper
-                border { color: Theme.edge; width: place.filled ? 0 : Math.max(1, 2 * Theme.unit) }
+                border { color: Theme.slot; width: place.filled ? 0 : Math.max(1, 2 * Theme.unit) }
+            }
+            // The two cards are hinted at in it: an empty box would look like a field to be filled in.
+            Repeater {
+                model: !place.filled && tray.paired ? 2 : 0
+                Rectangle {
+                    required property int index
+                    anchors { centerIn: parent; horizontalCenterOffset: (index === 0 ? -1 : 1) * place.aside }
+                    width: 0.9 * tray.card
+                    height: width
+                    radius: 0.11 * tray.card
+                    color: Theme.shelf
+                    border { color: Theme.edge; width: Theme.highContrast ? Math.max(1, Theme.unit) : 0 }
+                }
             }
             // Elsewhere the shapes of the two cards, so far apart that both are seen.
             Repeater {
@@ -93,7 +106,7 @@ Item {
                     height: width
                     radius: 0.11 * tray.card
                     color: Theme.paper
-                    border { color: Theme.edge; width: Math.max(1, 2 * Theme.unit) }
+                    border { color: Theme.slot; width: Math.max(1, 2 * Theme.unit) }
                 }
             }
             // Two cards side by side; or one on the other, of which only the edge is seen.
