@@ -230,6 +230,11 @@ PageFrame {
                             // As high as the one that says more.
                             readonly property real tall: Math.max(...Array.from(children, each => (each as Card)?.said ?? 0))
                             spacing: Theme.gap
+                            // A plain line between cards and the code has as much air above its letters as below them.
+                            transform: Translate {
+                                y: row.index > 1 && row.modelData.length === 1 && keepsake.there && !parts.cardFirst
+                                    ? Math.round(Math.max(0, parts.apart - row.topPadding - 0.17 * view.headingSize) / 2) : 0
+                            }
                             Repeater {
                                 model: row.modelData
                                 Card {
