@@ -29,7 +29,11 @@ PageFrame {
     readonly property real scaleWidth: flank?.scaleWidth ?? 0.54 * inner
     // How high a row is, and how much of it is above and below that.
     readonly property real rowHeight: flank?.height ?? 98 * Theme.unit + 1.37 * Theme.size(28)
-    readonly property real rowMargin: flank !== null ? spareMargin(flank.height, flank.tall) : 18 * Theme.unit
+    readonly property real rowMargin: flank !== null ? spareMargin(flank.height, flank.tall) - partings * parting / 2 / Math.max(1, form.items.filter(item => !form.hidden.includes(item.id)).length) : 18 * Theme.unit
+    // How much further a row is from the one before it where only one of them has many points below its question: they
+    // are seen as two kinds. The margins of all rows give it, where they are large enough.
+    readonly property int partings: form.items.filter((_, at) => parts(at)).length
+    readonly property real parting: partings > 0 && spareMargin(flank.height, flank.tall) >= 22 * Theme.unit ? 18 * Theme.unit : 0
     FontMetrics {
         id: letters
         font { pixelSize: 100; bold: true }
@@ -287,12 +291,20 @@ PageFrame {
     }
     // Whether the item that is seen before this one has the same scale, and so the same words at its ends.
     function repeats(at: int): bool {
-        let before = at - 1
-        const items = form.items
-        while (before >= 0 && form.hidden.includes(items[before]?.id))
-            before--
-        const one = items[before] ?? null, other = items[at] ?? null
+        const one = earlier(at), other = form.items[at] ?? null
         return one !== null && other !== null && scales(one) && one.points === other.points && one.left === other.left && one.right === other.right
+    }
+    // Whether one of this item and that before it has many points below its question, and the other has not.
+    function parts(at: int): bool {
+        const one = earlier(at), other = form.items[at] ?? null
+        return flank !== null && flank.over && one !== null && other !== null && !form.hidden.includes(other.id) && many(one) !== many(other)
+    }
+    // The item that is seen before this one.
+    function earlier(at: int): var {
+        let before = at - 1
+        while (before >= 0 && form.hidden.includes(form.items[before]?.id))
+            before--
+        return form.items[before] ?? null
     }
     // Give the keyboard to the next item that is to be seen, or to the way on.
     function goOn(at: int) {
@@ -457,6 +469,7 @@ PageFrame {
                     flank: view.flank
                     rowHeight: view.rowHeight
                     rowMargin: view.rowMargin
+                    parting: view.parts(index) ? view.parting : 0
                     rowText: view.rowText
                     textWidth: view.textWidth
                     scaleWidth: view.scaleWidth

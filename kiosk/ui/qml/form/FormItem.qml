@@ -28,6 +28,8 @@ Item {
     // How high a row is, and how much of it is above and below that.
     property real rowHeight: 0
     property real rowMargin: 0
+    // How much further than usual it is from the item before it.
+    property real parting: 0
     // Whether a number stands beside its text, at the end of the card.
     property bool inline: false
     // Whether the keys on the screen type into it.
@@ -120,7 +122,7 @@ Item {
         }
     }
     // The words for the ends stand above the first card of a table.
-    readonly property real head: beside && headed && !own ? ((way.item as PointScale)?.words ?? 0) + 8 * Theme.unit : 0
+    readonly property real head: parting + (beside && headed && !own ? ((way.item as PointScale)?.words ?? 0) + 8 * Theme.unit : 0)
 
     height: head + content.height + 2 * margin
 
