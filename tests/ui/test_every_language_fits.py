@@ -599,6 +599,9 @@ def test_the_avatar_shows_its_back_at_one_place_on_the_pages_that_rate_it_and_no
         back = find_item(ground, "turned-away")
         assert (back is not None) == (moment in RATED and not layout.robot)
         places += [] if back is None else [whole(back)]
+        why = find_item(ground, "why-turned-away")
+        assert (why is None) == (back is None)
+        assert back is None or why is None or 0 <= whole(back).left() - whole(why).right() <= 16
     screens.avatar.leave(away=False)
     assert len({place.left() for place in places}) == (0 if layout.robot else 1)
 

@@ -213,3 +213,14 @@ def test_columns_are_counted_from_the_left_where_the_cards_are(window: Window) -
     show(window, "game")
     across = [place(window, f"card-{number}").center().x() for number in range(3)]
     assert across == sorted(across)
+
+
+def test_the_words_of_an_avatar_that_is_turned_away_stand_at_its_right(window: Window) -> None:
+    window.screens.avatar.leave(away=True)
+    try:
+        show(window, "form", RATED, RATED.model_copy(update={"id": "again"}))
+        words, back, title = (place(window, name) for name in ("why-turned-away", "turned-away", "form-progress"))
+    finally:
+        window.screens.avatar.leave(away=False)
+    assert 0 <= words.left() - back.right() <= NEAR
+    assert words.right() + NEAR < title.left()

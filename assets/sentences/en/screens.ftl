@@ -160,6 +160,8 @@ form-type = Tap here to type
 form-number = Type here
 form-less = One less
 form-more = One more
+# Beside the helper's back, while visitors rate it.
+form-turned = I am not looking.
 
 ## The keyboard on the screen
 

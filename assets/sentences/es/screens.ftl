@@ -161,6 +161,8 @@ form-type = Toca aquí para escribir
 form-number = Escribe aquí
 form-less = Uno menos
 form-more = Uno más
+# Beside the helper's back, while visitors rate it.
+form-turned = No estoy mirando.
 
 ## The keyboard on the screen
 

@@ -165,6 +165,8 @@ form-type = Tocca qui per scrivere
 form-number = Scrivi qui
 form-less = Uno in meno
 form-more = Uno in più
+# Beside the helper's back, while visitors rate it.
+form-turned = Non guardo.
 
 ## The keyboard on the screen
 

@@ -230,17 +230,38 @@ Window {
                 // While the helper is rated it shows its back: on a wide page over the edge of the first card, where the
                 // title's line has room for it, and on an upright one beside the controls.
                 AvatarBack {
+                    id: turnedAway
                     objectName: "turned-away"
                     readonly property real line: stage.x + formView.bare.x
                     readonly property real from: root.wide ? line : steps.visible ? steps.x + steps.width : Theme.gap
                     readonly property real to: root.wide ? Math.min(line + formView.bare.width, steps.x) : corner.x
+                    // Whether there is room for its words before it, and how much they take.
+                    readonly property real needs: whyTurned.width + 0.5 * Theme.gap
+                    readonly property bool tells: whyTurned.height <= height && to - from >= width + needs + 2 * Theme.gap
+                    readonly property real least: from + Theme.gap + (tells && !Theme.mirrored ? needs : 0)
+                    readonly property real most: to - Theme.gap - width - (tells && Theme.mirrored ? needs : 0)
                     // At one place beside titles of any length, unless they are too long for that.
-                    readonly property real wished: !root.wide ? (from + to - width) / 2 : Theme.mirrored ? from + 5.4 * Theme.gap : to - 5.4 * Theme.gap - width
-                    height: (root.wide ? 122 : 112) * Theme.unit
-                    x: Math.round(Math.max(from + Theme.gap, Math.min(to - Theme.gap - width, wished)))
+                    readonly property real wished: root.wide ? (Theme.mirrored ? from + 2.8 * Theme.gap : to - 2.8 * Theme.gap - width)
+                        : !tells ? (from + to - width) / 2 : Theme.mirrored ? from + Theme.gap : least
+                    height: (root.wide ? 122 : 110) * Theme.unit
+                    x: Math.round(Math.max(least, Math.min(most, wished)))
                     y: Math.round((root.wide ? stage.y + formView.bare.height : root.room) - height)
                     visible: root.avatar.present && helper.gone && formView.still && to - from >= width + 2 * Theme.gap
                         && (root.wide ? y > 0 : formView.y + formView.foot + formView.way.height < y)
+                }
+                PlainText {
+                    id: whyTurned
+                    objectName: "why-turned-away"
+                    visible: turnedAway.visible && turnedAway.tells
+                    text: root.words["form-turned"]
+                    // In two lines on a wide page, beside titles of many words.
+                    width: root.wide ? formView.folded([{ text }], "text", font.pixelSize) : implicitWidth
+                    x: turnedAway.x + (Theme.mirrored ? turnedAway.width + turnedAway.needs - width : -turnedAway.needs)
+                    y: root.wide ? turnedAway.y + (turnedAway.height - height) / 2 : corner.y + (corner.height - height) / 2
+                    wrapMode: root.wide ? Text.WordWrap : Text.NoWrap
+                    horizontalAlignment: Text.AlignRight
+                    font.pixelSize: Theme.size(root.wide ? 28 : 30)
+                    color: Theme.faintInk
                 }
                 FormView {
                     id: formView

@@ -64,6 +64,7 @@ FIXED = (
     "form-number",
     "form-less",
     "form-more",
+    "form-turned",
     "keyboard-shift",
     "keyboard-delete",
     "keyboard-space",

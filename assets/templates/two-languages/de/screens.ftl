@@ -160,6 +160,8 @@ form-type = Zum Schreiben hier tippen
 form-number = Hier tippen
 form-less = Eins weniger
 form-more = Eins mehr
+# Beside the helper's back, while visitors rate it.
+form-turned = Ich schaue nicht hin.
 
 ## The keyboard on the screen
 
