@@ -161,17 +161,38 @@ PageFrame {
         if (!calm || upright || alone || mirrored)
             return null
         for (const size of [34, 33, 32, 31, 30, 29].map(Theme.size))
-            for (const height of [88, 84, 80, 78, 77, 76, 75, 74, 72, 68])
-                if (form.items.every(item => tiled(item, size)) && tiledHeight(height) - 22 * Theme.unit <= room)
+            for (const height of [84, 80, 78, 77, 76, 75, 74, 72, 68])
+                if (form.items.every(item => tiled(item, size)) && tiledHeight(height, size) - 22 * Theme.unit <= room)
                     return {size, height: height * Theme.unit}
         return null
     }
     readonly property real asking: Theme.size(36)
+    // How many options each row has where an odd number of them takes fewer rows side by side than in halves, which would
+    // leave a hole; none where it does not.
+    function shared(item: var, size: real): var {
+        const all = item.options ?? []
+        if (item.kind !== "single" || all.length % 2 === 0)
+            return []
+        const wide = all.map(option => 1.01 * thin.advanceWidth(option.text) * size / 100 + 84 * Theme.unit)
+        for (let rows = 1; rows < all.length / 2; rows++) {
+            const few = Math.floor(all.length / rows), more = all.length % rows
+            const counts = Array.from({length: rows}, (_, row) => row < more ? few + 1 : few)
+            for (const way of [counts, counts.slice().reverse()]) {
+                let at = 0
+                if (way.every(count => {
+                    at += count
+                    return wide.slice(at - count, at).reduce((sum, each) => sum + each + 16 * Theme.unit, 0) <= inner + 16 * Theme.unit
+                }))
+                    return way
+            }
+        }
+        return []
+    }
     FontMetrics {
         id: thin
         font.pixelSize: 100
     }
-    // Whether all of its options have room in halves of the card.
+    // Whether all of its options have room in halves of the card, or in rows that they share.
     function tiled(item: var, size: real): bool {
         if (item.kind === "integer")
             return true
@@ -179,7 +200,7 @@ PageFrame {
             return false
         const half = (inner - 16 * Theme.unit) / 2 - 79 * Theme.unit
         // Small letters are set on whole pixels, and take a little more.
-        return item.options.every(option => 1.01 * thin.advanceWidth(option.text) * size / 100 <= half)
+        return shared(item, size).length > 0 || item.options.every(option => 1.01 * thin.advanceWidth(option.text) * size / 100 <= half)
     }
     // Whether what a number may be has room in its question's line.
     function ranged(item: var): bool {
@@ -203,11 +224,11 @@ PageFrame {
         const fit = Math.min(many, Math.floor((inner + gap) / (widest + gap)))
         return fit < 1 ? 0 : Math.ceil(many / Math.ceil(many / fit))
     }
-    function tiledHeight(height: real): real {
+    function tiledHeight(height: real, size: real): real {
         let tall = 0
         for (const item of form.items) {
             const lines = Math.ceil(letters.advanceWidth(item.text) * asking / 100 / inner)
-            const rows = Math.ceil((item.options?.length ?? 0) / 2)
+            const rows = shared(item, size).length || Math.ceil((item.options?.length ?? 0) / 2)
             tall += form.hidden.includes(item.id) ? 0 : item.kind === "integer" ? (ranged(item) ? 130 : 138) * Theme.unit
                 : lines * 1.37 * asking + (50 + (height + 16) * rows) * Theme.unit
         }
@@ -421,7 +442,7 @@ PageFrame {
             room: view.room - view.lead
             more: view.words["scroll-more"]
             // Further apart where the page has room for it; and what belongs together, too.
-            readonly property real plain: summed(box => box.plain + (view.tiles !== null ? 22 : view.ample || view.easy ? 24 : 30) * Theme.unit)
+            readonly property real plain: summed(box => box.plain + (view.tiles !== null ? 22 : view.ample || view.easy ? 24 : 30) * Theme.unit) - (view.tiles !== null ? 12 * Theme.unit : 0)
             readonly property int rows: summed(box => box.rows)
             // How much higher than usual each row of options of an upright page is.
             readonly property real grown: view.easy && rows > 0 ? Math.max(0, Math.min(16 * Theme.unit, Math.floor((room - plain) / rows))) : 0
@@ -457,6 +478,7 @@ PageFrame {
                     calm: view.calm
                     paired: view.tiles?.size ?? 0
                     pairHeight: view.tiles?.height ?? 0
+                    shared: view.tiles !== null ? view.shared(modelData, view.tiles.size) : []
                     asking: view.asking
                     ranged: view.tiles !== null && view.ranged(modelData)
                     loosened: pane.loosened

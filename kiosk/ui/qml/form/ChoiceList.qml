@@ -16,6 +16,8 @@ Flow {
     property bool large: false          // whether there is much height for the page
     // How large they are in two columns, all as wide; 0 where they do not stand so.
     property real paired: 0
+    // How many of such stand in each row, which they fill; none where all are as wide.
+    property var shared: []
     required property real usual        // how high an option is at least
     // How much higher it is where there is height for that, and how large its letters are then.
     property real grown: 0
@@ -43,7 +45,7 @@ Flow {
     readonly property bool tiled: !stacked && !dense && (columns > 1 || width < 1020 * Theme.unit)
     // How far apart they are in columns, and in rows that are filled.
     readonly property real packed: !dense && !alone && width >= 1020 * Theme.unit ? 8 * Theme.unit : large ? (easy ? 14 : 18) * Theme.unit : 0.5 * Theme.gap
-    readonly property real apart: 0.67 * Theme.gap
+    readonly property real apart: shared.length > 0 ? gridGap : 0.67 * Theme.gap
     readonly property real widest: {
         let most = 0
         for (let i = 0; i < buttons.count; i++)
@@ -56,18 +58,18 @@ Flow {
     }
     // On a wide screen, what takes fewer rows so: each as wide as its words need, and then wider until its row is full.
     readonly property var filled: {
-        const rows = [], wide = width - 0.5
+        const rows = [], wide = width - (shared.length > 0 ? 0 : 0.5)
         let left = -1
         for (let i = 0; i < buttons.count; i++) {
             const wish = (buttons.itemAt(i) as Choosable)?.implicitWidth ?? 0
-            if (left < wish + apart) {
+            if (shared.length > 0 ? i === 0 || rows[rows.length - 1].length === shared[rows.length - 1] : left < wish + apart) {
                 rows.push([])
                 left = wide + apart
             }
             rows[rows.length - 1].push(wish)
             left -= wish + apart
         }
-        if (rows.length >= Math.ceil(options.length / columns))
+        if (shared.length === 0 && rows.length >= Math.ceil(options.length / columns))
             return []
         const widths = []
         for (const row of rows) {
@@ -85,6 +87,8 @@ Flow {
     // a row what is left. So what stands in two rows, or in two lists, begins at the same places.
     property real gridGap: 12 * Theme.unit
     readonly property var gridded: {
+        if (shared.length > 0)
+            return []
         const wishes = []
         for (let i = 0; i < buttons.count; i++)
             wishes.push((buttons.itemAt(i) as Choosable)?.implicitWidth ?? 0)
@@ -132,7 +136,7 @@ Flow {
         }
         return []
     }
-    readonly property bool flowing: width >= 1020 * Theme.unit && (gridded.length > 0 || tiled && filled.length > 0)
+    readonly property bool flowing: width >= 1020 * Theme.unit && (gridded.length > 0 || (tiled || shared.length > 0) && filled.length > 0)
     readonly property real tile: Math.floor((width - (columns - 1) * packed) / columns)
 
     spacing: flowing ? (gridded.length > 0 ? gridGap : apart) : packed

@@ -51,6 +51,8 @@ Item {
     // How large the options of its page are in columns, and how high; 0 where they do not stand so.
     property real paired: 0
     property real pairHeight: 0
+    // How many of them stand in each row where they do not stand in halves.
+    property var shared: []
     // How large the questions of such a page are.
     property real asking: 0
     // Whether what a number may be has room in its question's line there.
@@ -348,6 +350,7 @@ Item {
             grown: box.grown
             easy: box.easy
             paired: box.paired
+            shared: box.shared
             gridGap: (box.paired > 0 ? 16 : box.calm ? 18 : 12) * Theme.unit
             usual: box.paired > 0 ? box.pairHeight : (box.tight || (Theme.textSize > 1.15 && !box.large) || box.form.items.length > 3 ? 62 : box.airy ? 84 : 76) * Theme.unit
             onPicked: option => several ? box.form.toggle(box.item.id, option) : box.form.choose(box.item.id, option)
