@@ -249,13 +249,19 @@ Window {
                     visible: root.avatar.present && helper.gone && formView.still && to - from >= width + 2 * Theme.gap
                         && (root.wide ? y > 0 : formView.y + formView.foot + formView.way.height < y)
                 }
+                // Measured apart: words whose width depends on their own implicit one have a binding loop when the page turns.
+                TextMetrics {
+                    id: turnedWords
+                    text: whyTurned.text
+                    font: whyTurned.font
+                }
                 PlainText {
                     id: whyTurned
                     objectName: "why-turned-away"
                     visible: turnedAway.visible && turnedAway.tells
                     text: root.words["form-turned"]
                     // In two lines on a wide page, beside titles of many words.
-                    width: root.wide ? formView.folded([{ text }], "text", font.pixelSize) : implicitWidth
+                    width: root.wide ? formView.folded([{ text }], "text", font.pixelSize) : Math.ceil(turnedWords.advanceWidth)
                     x: turnedAway.x + (Theme.mirrored ? turnedAway.width + turnedAway.needs - width : -turnedAway.needs)
                     y: root.wide ? turnedAway.y + (turnedAway.height - height) / 2 : corner.y + (corner.height - height) / 2
                     wrapMode: root.wide ? Text.WordWrap : Text.NoWrap
