@@ -55,7 +55,7 @@ def test_the_pdf_has_every_text_and_screen_of_each_language(tmp_path: Path, monk
         assert all(paragraph.split("'")[0] in text for paragraph in plan.information.consent.paragraphs)
         assert all(point.split("'")[0] in text for point in plan.information.consent.points)
         assert all(item.text[plan.language].split("'")[0] in text for item in plan.questionnaires[0].items)
-        assert {"en": "<p>About the helper</p>", "it": "<p>Su chi ti ha aiutato</p>"}[plan.language] in text
+        assert {"en": "<p>How far do you agree?</p>", "it": "<p>Quanto sei d"}[plan.language] in text
         for screen in ("attract", "board", "items-1"):
             assert f"-{screen}.png" in text.split(f"({plan.language})")[1]
         part = text.split(f"({plan.language})")[1]

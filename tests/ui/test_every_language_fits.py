@@ -575,15 +575,13 @@ def test_ten_points_of_a_wide_page_are_as_large_as_five_and_stand_below_their_qu
     assert abs((shown.top() - card.top()) - (card.bottom() - scale.bottom())) < 12
 
 
-def test_a_statement_of_an_upright_page_of_ratings_is_as_far_from_its_scale_in_one_line_as_in_two(
+def test_statements_of_an_upright_page_of_ratings_are_as_high_and_as_far_from_their_scales(
     kiosk: tuple[Window, StudyConfig],
 ) -> None:
-    gaps = {
-        round(scale.top() - shown.bottom())
-        for page in rating_pages(kiosk, Layout(1080, 1920))
-        for _, _, shown, scale in page
-    }
+    pages = list(rating_pages(kiosk, Layout(1080, 1920)))
+    gaps = {round(scale.top() - shown.bottom()) for page in pages for _, _, shown, scale in page}
     assert len(gaps) == 1
+    assert len({round(shown.height()) for page in pages for _, _, shown, _ in page}) == 1
     assert 30 <= min(gaps) <= 44
 
 

@@ -416,6 +416,20 @@ def test_what_to_do_stands_on_a_line_of_its_own_and_is_told_once(still: App) -> 
     assert parts() == [("You have seen it.", False)]
 
 
+@UPRIGHT
+def test_a_few_words_are_larger_than_many_in_an_upright_bubble(still: App) -> None:
+    def size(sentence: str) -> tuple[int, int]:
+        still.screens.avatar.say(sentence)
+        bubbles = (i for i in items(still.window.contentItem()) if lies_in(i, "Bubble"))
+        (words,) = (i for i in bubbles if i.property("text") == sentence)
+        return words.property("font").pixelSize(), words.property("lineCount")
+
+    few, lines = size("Turn over any card.")
+    many, _ = size("You can turn over any card that you like, and then another one.")
+    assert lines == 1
+    assert few > 1.2 * many
+
+
 def test_the_helper_says_whose_turn_it_is_until_a_card_is_turned(still: App) -> None:
     def said() -> list[str]:
         bubbles = (i for i in items(still.window.contentItem()) if lies_in(i, "Bubble"))

@@ -21,6 +21,8 @@ Item {
     readonly property real tail: (hasSpeaker ? 34 : 12) * Theme.unit
     readonly property bool tells: outcome !== "" && whole === outcomeOf
     readonly property real cheer: Theme.size(grows ? 64 : 52)
+    // A few words in a wide bubble are large, too.
+    readonly property bool short: grows && !calls && !cheered && !tells && end === "" && whole !== "" && briefly.advanceWidth <= words.width
     readonly property real tag: speaker === "" ? 0 : name.height - 0.3 * Theme.gap
     // How much of its height is free above it.
     readonly property real free: sentence === "" ? height : box.y
@@ -64,13 +66,18 @@ Item {
     Measure {
         id: usual
         text: words.text
-        font.pixelSize: bubble.cheered ? bubble.cheer : Theme.size(bubble.calls ? 50 : bubble.grows ? (large.high + largeEnd.high <= bubble.room - ending.apart ? 38 : 34) : 36)
+        font.pixelSize: bubble.cheered ? bubble.cheer : bubble.short ? briefly.font.pixelSize : Theme.size(bubble.calls ? 50 : bubble.grows ? (large.high + largeEnd.high <= bubble.room - ending.apart ? 38 : 34) : 36)
         font.bold: bubble.cheered
     }
     Measure {
         id: usualEnd
         text: ending.text
         font { pixelSize: usual.font.pixelSize; bold: true }
+    }
+    TextMetrics {
+        id: briefly
+        text: bubble.whole
+        font.pixelSize: Theme.size(52)
     }
     // The same in large words, where there is room for them.
     Measure {
@@ -116,7 +123,7 @@ Item {
             }
             font.bold: bubble.cheered
             color: bubble.cheered ? Theme.sea : Theme.ink
-            horizontalAlignment: bubble.cheered || bubble.tells ? Text.AlignHCenter : LayoutMirroring.enabled ? Text.AlignLeft : undefined
+            horizontalAlignment: bubble.cheered || bubble.tells || bubble.short ? Text.AlignHCenter : LayoutMirroring.enabled ? Text.AlignLeft : undefined
             lineHeight: 1.12
             // Said once, as a whole.
             Accessible.role: Accessible.AlertMessage

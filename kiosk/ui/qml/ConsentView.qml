@@ -161,7 +161,7 @@ PageFrame {
                         free -= waits.height + spacing
                     for (let i = 0; i < purposes.count; i++)
                         free -= ((purposes.itemAt(i) as Purpose)?.bare ?? 0) + spacing
-                    return Math.max(0, Math.min((points.columns > 1 || view.width < view.height ? 1 : 0.5) * Theme.gap, free))
+                    return Math.max(0, Math.min((view.width < view.height ? 1.3 : points.columns > 1 ? 1 : 0.5) * Theme.gap, free))
                 }
                 spacing: (points.airy && view.short ? (view.width < view.height ? 1 : points.columns > 1 ? 0.9 : 0.67) : 0.5) * Theme.gap
                 // What is still to be ticked, or that nothing is.
@@ -211,7 +211,7 @@ PageFrame {
                         TickBox {
                             id: tick
                             objectName: "purpose-" + purpose.modelData.id
-                            y: group.visible ? group.y + group.height + boxes.spacing : purpose.apart ? boxes.further : 0
+                            y: group.visible ? group.y + group.height + (view.width < view.height ? 0.7 : 1) * boxes.spacing : purpose.apart ? boxes.further : 0
                             width: parent.width
                             large: points.airy && view.short
                             broad: large && view.width < view.height

@@ -33,7 +33,7 @@ Choosable {
     background: Rectangle {
         radius: Theme.radius
         // What is ticked is darker; the pointer over it changes the edge alone.
-        color: !box.on ? Theme.touchable : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.14))
+        color: !box.on ? (box.lighter ? Theme.white : Theme.touchable) : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.14))
         border { color: box.warning ? Theme.deepAmber : box.lighter && !box.on && !box.hovered && !Theme.highContrast ? Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.45)) : Theme.sea; width: (box.warning || box.hovered || box.on ? 4 : 2) * Theme.unit }
         FocusRing {
             around: box

@@ -165,6 +165,7 @@ Item {
                 Balanced {
                     id: question
                     width: parent.width
+                    doubled: box.ample && Theme.textSize <= 1
                     text: box.item.shown
                     Accessible.name: box.item.text
                     font {
