@@ -225,7 +225,6 @@ console-quit = Leave the kiosk
 ## Alarms
 
 console-alarms = Alarms
-console-alarms-none = none
 console-alarm-until = {" "}(over at { $time })
 console-alarm-robot-lost = The robot is lost; the avatar helps
 console-alarm-voice-lost = No sentence is heard: look at the loudspeaker and the sound settings

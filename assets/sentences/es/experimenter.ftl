@@ -225,7 +225,6 @@ console-quit = Salir del quiosco
 ## Alarmas
 
 console-alarms = Alarmas
-console-alarms-none = ninguna
 console-alarm-until = {" "}(terminó a las { $time })
 console-alarm-robot-lost = El robot no responde; ayuda el avatar
 console-alarm-voice-lost = Las frases no se oyen: revise el altavoz y los ajustes de sonido

@@ -225,7 +225,6 @@ console-quit = Esci dal chiosco
 ## Allarmi
 
 console-alarms = Allarmi
-console-alarms-none = nessuno
 console-alarm-until = {" "}(finito alle { $time })
 console-alarm-robot-lost = Il robot non risponde più; aiuta l’avatar
 console-alarm-voice-lost = Le frasi non si sentono: guardare l’altoparlante e le impostazioni dell’audio

@@ -393,7 +393,6 @@ WORDS = (
     "console-key-delete",
     "console-key-enter",
     "console-alarms",
-    "console-alarms-none",
     "console-health",
     "console-shortcuts",
     "console-mark-well",

@@ -13,13 +13,15 @@ PanelSection {
     property real gutter: Theme.gap
     property real spread: 0
     readonly property var words: panel.words
-    readonly property var none: ({ name: words["console-alarms"], message: words["console-alarms-none"], is_ok: true, is_used: true })
-    readonly property var lines: panel.alarms.length > 0 ? panel.health.lines : [...panel.health.lines, none]
+    readonly property var lines: panel.health.lines
 
     // What a wide screen has left is shared among the lines.
     readonly property real room: double ? 0 : least - frame - 0.5 * Theme.gap
-    readonly property real each: Math.max(0, Math.min(76 * Theme.unit, room / lines.length))
-    readonly property real named: Math.min(0.4 * table.column, widest(lines.map(line => line.name), letters.font) + 14 * Theme.unit)
+    readonly property real each: Math.max(0, Math.min(84 * Theme.unit, room / lines.length))
+    readonly property real longest: widest(lines.map(line => line.name), letters.font) + 14 * Theme.unit
+    readonly property real named: Math.min(0.4 * table.column, longest)
+    // How wide it is if no line of it wraps: its mark, its name, what it says, and the steps between them.
+    readonly property real natural: 2 * inset + 1.25 * size + longest + widest(lines.map(line => line.message), letters.font) + 20 * Theme.unit
     // What is measured depends on the font, which is named for that reason alone.
     function widest(names: var, _font: font): real {
         return Math.ceil(Math.max(0, ...names.map(name => letters.advanceWidth(name))))

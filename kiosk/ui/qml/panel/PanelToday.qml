@@ -17,7 +17,8 @@ Item {
     // Whole pixels: a card at a fraction of one would lose its right edge.
     readonly property real side: Math.floor(wide ? width * 0.265 : width)
     readonly property real main: wide ? width - side - space : width
-    readonly property real half: Math.floor(wide ? main * 0.43 : width)
+    // The checks have what their lines need, and the tables have the rest.
+    readonly property real half: Math.floor(!wide ? width : tabled && panel.alarms.length === 0 ? Math.max(0.32 * main, Math.min(0.43 * main, health.natural)) : 0.43 * main)
 
     // Where what stands side by side begins, and where the status ends.
     readonly property real below: first.height + space
@@ -28,12 +29,17 @@ Item {
     // What a wide screen has left is shared among the rows of the counts and of the sessions.
     readonly property int rows: panel.records.cells.length + panel.records.sessions.length
     readonly property real leftOver: room > 0 && Theme.textSize <= 1.15 ? room - counts.further - (370 + 45 * rows) * Theme.unit : 0
-    readonly property real airy: 10 * Theme.unit + Math.max(0, Math.min(16 * Theme.unit, leftOver / (rows + 2)), spread)
+    readonly property real airy: 10 * Theme.unit + Math.max(0, Math.min(16 * Theme.unit, leftOver / (rows + 2)), spread, slack)
+    // The lines of the checks where they stand in two columns.
+    readonly property int pairs: Math.ceil(health.lines.length / 2)
     // On an upright one it is shared among all, as long as there is little to tell.
     readonly property bool calm: !wide && Theme.textSize <= 1.15 && panel.health.matters.length < 4 && panel.alarms.length === 0 && panel.records.resumable.length === 0 && !panel.choices.canBeNext && !(panel.choices.onBreak ?? false)
-    readonly property real spread: calm ? Math.floor(Math.max(0, Math.min(24 * Theme.unit, (seen - first.height - (1190 + 66 * rows) * Theme.unit) / (rows + 9)))) : 0
+    readonly property real spread: calm ? Math.floor(Math.max(0, Math.min(24 * Theme.unit, (seen - first.height - (1043 + 66 * rows + 49 * pairs) * Theme.unit) / (rows + 9)))) : 0
+    // What is too little to be shared by all of it goes between the rows of the tables.
+    readonly property real slack: calm ? Math.floor(Math.max(0, Math.min(14 * Theme.unit, (over - counts.further - 8 * spread) / (rows + 1)))) : 0
+    readonly property real over: seen - first.height - (933 + 66 * rows + 49 * pairs) * Theme.unit
     // Words that need more lines than usual take what they lack from between the checks.
-    readonly property real lack: wide ? 0 : Math.max(-14 * Theme.unit, Math.min(0, (seen - first.height - (1080 + 66 * rows) * Theme.unit) / 2))
+    readonly property real lack: wide ? 0 : Math.max(-14 * Theme.unit, Math.min(0, over / 2))
 
     // On an upright screen all second columns begin in line, and with them the fourth of the grid that both tables share.
     readonly property real gutter: Math.round(40 * Theme.unit)
@@ -49,7 +55,7 @@ Item {
         id: first
         width: today.main
         spacing: today.space
-        PanelNow { width: parent.width; panel: today.panel; size: today.size; wide: today.wide || Theme.textSize <= 1.15; split: today.wide ? today.half + today.space : Math.round(0.46 * width) }
+        PanelNow { width: parent.width; panel: today.panel; size: today.size; wide: today.wide || Theme.textSize <= 1.15; split: today.wide ? today.half + today.space + (today.tabled ? today.grid[1] : 0) : Math.round(0.46 * width) }
         PanelNotice { width: parent.width; size: Theme.upright ? today.size : 1.12 * Theme.dense; panel: today.panel; visible: matters.length > 0 }
     }
     Column {
@@ -76,6 +82,7 @@ Item {
         spacing: today.space
         PanelAlarms { width: parent.width; panel: today.panel; size: today.size; visible: today.panel.alarms.length > 0 }
         PanelHealth {
+            id: health
             width: parent.width
             panel: today.panel
             size: today.size
