@@ -71,8 +71,12 @@ Flow {
         }
         if (shared.length === 0 && rows.length >= Math.ceil(options.length / columns))
             return []
+        // Rows that share a number of options are columns, as those of the other lists, where all words fit these.
+        const part = count => (wide + apart) / count - apart
+        const equal = shared.length > 0 && rows.every(row => row.every(wish => wish <= Math.floor(part(row.length))))
         const widths = []
-        for (const row of rows) {
+        for (const fit of rows) {
+            const row = equal ? fit.map(() => part(fit.length)) : fit
             const spare = (wide - row.reduce((sum, wish) => sum + wish + apart, -apart)) / row.length
             // Whole pixels, and the row ends where the others do.
             let at = 0
