@@ -26,10 +26,10 @@ Item {
     // What the status has of a wide screen.
     readonly property real room: wide && panel.alarms.length === 0 ? Math.floor(seen - below) : 0
 
-    // What a wide screen has left is shared among the rows of the counts and of the sessions.
+    // What a wide screen has left is shared among the rows of the counts and of the sessions, and so is what it lacks.
     readonly property int rows: panel.records.cells.length + panel.records.sessions.length
     readonly property real leftOver: room > 0 && Theme.textSize <= 1.15 ? room - counts.further - (370 + 45 * rows) * Theme.unit : 0
-    readonly property real airy: 10 * Theme.unit + Math.max(0, Math.min(16 * Theme.unit, leftOver / (rows + 2)), spread, slack)
+    readonly property real airy: 10 * Theme.unit + (wide ? Math.max(-5 * Theme.unit, Math.min(16 * Theme.unit, leftOver / (rows + 2))) : Math.max(spread, slack))
     // The lines of the checks where they stand in two columns.
     readonly property int pairs: Math.ceil(health.lines.length / 2)
     // On an upright one it is shared among all, as long as there is little to tell.
@@ -46,7 +46,7 @@ Item {
     readonly property bool tabled: Theme.textSize <= 1.15
     readonly property real across: Math.floor(counts.width - 2 * counts.inset)
     readonly property real fourth: Math.floor((across - gutter) / 2) + gutter
-    readonly property list<real> grid: (!tabled ? [] : wide ? [0, 0.142, 0.29, 0.486, 0.775].map(each => each * across) : [0, fourth / 3, 2 * fourth / 3, fourth, fourth + 0.235 * across]).map(each => Math.round(each))
+    readonly property list<real> grid: (!tabled ? [] : wide ? [0, 0.142, 0.3, 0.49, 0.775].map(each => each * across) : [0, fourth / 3, 2 * fourth / 3, fourth, fourth + 0.235 * across]).map(each => Math.round(each))
     readonly property real figure: tabled && !wide && panel.health.matters.length < 4 && panel.records.sessions.length < 6 ? 30 * Theme.textSize * Theme.unit : size
 
     height: wide ? Math.max(right.height, left.y + left.height, middle.y + middle.height) : middle.y + middle.height
