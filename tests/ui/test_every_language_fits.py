@@ -196,7 +196,9 @@ def painted(text: QQuickItem) -> QRectF:
     """Where a text's letters are in the window."""
     width, height = float(text.property("contentWidth")), float(text.property("contentHeight"))
     place = text.mapRectToScene(text.boundingRect())
-    return QRectF(place.center().x() - width / 2, place.center().y() - height / 2, width, height)
+    # A negative padding takes away the air above large capitals; Qt leaves it out of where the text is.
+    air = min(0.0, float(text.property("topPadding")))
+    return QRectF(place.center().x() - width / 2, place.center().y() - height / 2, width, height + air)
 
 
 def controls(item: QQuickItem) -> Iterator[QQuickItem]:

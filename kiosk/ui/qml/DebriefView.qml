@@ -323,6 +323,10 @@ PageFrame {
                     readonly property real grown: 1.37 * large + 0.4 * Theme.gap + Math.ceil(1.37 * view.pairedSize)
                         * (view.lines(view.keptMeasures, 1.08 * view.pairedSize, 0.95 * width) + view.notedMeasures.reduce((sum, widths) => sum + view.lines(widths, view.pairedSize, 0.95 * width), 0))
                     readonly property real size: grand ? view.pairedSize : view.noted
+                    // Whether the name of the code has a line of its own, so that all of it begins at one edge: on an
+                    // upright screen as a heading, and else small over the code, close to it.
+                    readonly property bool named: stacked || captioned
+                    readonly property bool captioned: grand && grown + 1.37 * (Theme.reading - 0.15 * large) + 0.4 * Theme.gap <= qr.height + 2 * view.rim
                     anchors {
                         left: qr.right; leftMargin: (view.debrief.code !== "" ? 1.5 : 0.25) * Theme.gap
                         right: parent.right; rightMargin: stacked ? view.pad : Theme.gap
@@ -336,28 +340,30 @@ PageFrame {
                         font { pixelSize: told.grand ? told.size : Theme.body; bold: true }
                         horizontalAlignment: Text.AlignLeft
                     }
-                    // The code stands below its name on an upright screen, and beside it on others.
+                    // The code stands below its name, and beside it where there is no height for that.
                     Item {
                         width: parent.width
-                        height: told.stacked ? code.y + code.height : Math.max(called.height, code.height)
+                        height: told.named ? code.y + code.height : Math.max(called.height, code.height)
                         visible: view.debrief.code !== ""
                         PlainText {
                             id: called
                             x: Theme.across(0, width, parent.width)
-                            y: told.stacked ? 0 : (parent.height - height) / 2
-                            width: (told.stacked ? 1 : 0.45) * parent.width
+                            y: told.captioned ? 0.4 * Theme.gap : told.stacked ? 0 : Math.max(0, code.height - height) / 2
+                            width: (told.named ? 1 : 0.45) * parent.width
                             text: view.words["debrief-code"]
-                            font { pixelSize: told.size; bold: true }
+                            font { pixelSize: told.captioned ? Theme.reading : told.size; bold: !told.captioned }
                             horizontalAlignment: Text.AlignLeft
                             wrapMode: Text.Wrap
-                            color: Theme.ink
+                            color: told.captioned ? Theme.faintInk : Theme.ink
                         }
                         PlainText {
                             id: code
-                            readonly property real from: told.stacked ? 0 : called.contentWidth + Theme.gap
+                            readonly property real from: told.named ? 0 : called.contentWidth + Theme.gap
                             objectName: "code"
                             x: Theme.across(from, width, parent.width)
-                            y: told.stacked ? called.y + called.height : 0
+                            y: told.named ? called.height + (told.captioned ? 0.4 * Theme.gap : 0) : 0
+                            // Its letters have much air above them.
+                            topPadding: told.captioned ? -0.18 * told.large : 0
                             width: parent.width - from
                             text: view.debrief.code
                             horizontalAlignment: Text.AlignLeft
