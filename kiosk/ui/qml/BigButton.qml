@@ -1,7 +1,6 @@
 // A button that is hard to miss: large, and the same by mouse, touch and keyboard.
 import QtQuick
 import QtQuick.Controls.Basic
-import QtQuick.Shapes
 import "."
 
 Button {
@@ -12,14 +11,16 @@ Button {
     // How wide it may be at most; its words then take more lines.
     property real most: Infinity
     property bool quiet: false
-    // A quiet one that is the way on, once what the page asks for is done: its edge is dashed until then.
+    // A quiet one that is the way on, once what the page asks for is done: it is only tinted until then.
     property bool waits: false
     // A few words more, such as why it waits: at its end where that is wide enough, else as a line below the words, which
     // makes it no higher.
     property string note: ""
     // Whether it may stand below; else it is left out where there is no room at the end.
     property bool noteBelow: true
-    readonly property bool noteBeside: note !== "" && noted.advanceWidth + 2 * Theme.gap < (width - wish) / 2
+    // How much of its end the note takes there; the words make way for it.
+    readonly property real reserved: noted.advanceWidth + 2.6 * Theme.gap
+    readonly property bool noteBeside: note !== "" && leftPadding + measure.advanceWidth + reserved <= width
     readonly property bool noteUnder: note !== "" && noteBelow && !noteBeside
     // How round it is at most.
     property real corner: Infinity
@@ -58,7 +59,10 @@ Button {
         text: button.note
     }
     contentItem: Text {
-        transform: Translate { y: button.noteUnder ? -below.height / 2 - 2 * Theme.unit : 0 }
+        transform: Translate {
+            x: button.noteBeside ? -Theme.ahead * Math.max(0, button.reserved - (button.width - measure.advanceWidth) / 2) : 0
+            y: button.noteUnder ? -below.height / 2 - 2 * Theme.unit : 0
+        }
         textFormat: Text.PlainText
         text: button.words
         font: button.font
@@ -91,24 +95,9 @@ Button {
     background: Rectangle {
         id: ground
         radius: Math.min(height / 2, button.topPadding + button.font.pixelSize, button.corner)
-        color: button.waits ? Theme.white : button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
+        color: button.waits ? Theme.touchable : button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
         border.color: Theme.sea
-        border.width: button.quiet && !button.waits ? 3 * Theme.unit : 0
-
-        Shape {
-            visible: button.waits
-            anchors { fill: parent; margins: 1.5 * Theme.unit }
-            ShapePath {
-                strokeColor: Theme.sea
-                strokeWidth: 3 * Theme.unit
-                strokeStyle: ShapePath.DashLine
-                dashPattern: [4, 3]
-                capStyle: ShapePath.FlatCap
-                fillColor: "transparent"
-                PathRectangle { width: ground.width - 3 * Theme.unit; height: ground.height - 3 * Theme.unit; radius: ground.radius - 1.5 * Theme.unit }
-            }
-        }
-
+        border.width: button.quiet || button.waits ? 3 * Theme.unit : 0
         FocusRing {
             around: button
             radius: ground.radius + reach

@@ -71,12 +71,12 @@ Flow {
         }
         if (shared.length === 0 && rows.length >= Math.ceil(options.length / columns))
             return []
-        // Rows that share a number of options are columns, as those of the other lists, where all words fit these.
+        // A row whose words fit that has columns, as those of the other lists.
         const part = count => (wide + apart) / count - apart
-        const equal = shared.length > 0 && rows.every(row => row.every(wish => wish <= Math.floor(part(row.length))))
+        const equal = row => shared.length > 0 && row.every(wish => wish + 20 * Theme.unit <= part(row.length))
         const widths = []
         for (const fit of rows) {
-            const row = equal ? fit.map(() => part(fit.length)) : fit
+            const row = equal(fit) ? fit.map(() => part(fit.length)) : fit
             const spare = (wide - row.reduce((sum, wish) => sum + wish + apart, -apart)) / row.length
             // Whole pixels, and the row ends where the others do.
             let at = 0

@@ -132,7 +132,7 @@ Item {
         anchors { fill: parent; topMargin: box.head }
         radius: Theme.radius
         color: box.alone ? "transparent" : Theme.white
-        border { color: box.missed ? Theme.deepAmber : Theme.edge; width: box.alone ? 0 : (box.missed ? 5 : 3) * Theme.unit }
+        border { color: box.missed ? Theme.deepAmber : box.crowned ? Qt.tint(Theme.white, Qt.alpha(Theme.sea, 0.5)) : Theme.edge; width: box.alone ? 0 : (box.missed ? 5 : 3) * Theme.unit }
     }
 
     FontMetrics {

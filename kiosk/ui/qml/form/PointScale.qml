@@ -40,8 +40,12 @@ Item {
     readonly property bool many: points > 7 && !pictured
     readonly property bool spread: flank !== null && many && !crowned
     readonly property real size: spread ? Math.min(76 * Theme.unit, filling) : flank?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
-    // How much of that height it leaves, above itself and below.
-    readonly property real inset: even && below && !alone && !pictured ? Math.max(0, (wish - size) / 2) : 0
+    // How high they are: much smaller ones that are given that height take it, and are easier to hit.
+    readonly property bool evened: even && below && !alone && !pictured
+    readonly property bool long: evened && size < 0.85 * wish
+    readonly property real tall: long ? wish : size
+    // How much of that height they leave, above themselves and below.
+    readonly property real inset: evened ? Math.max(0, (wish - tall) / 2) : 0
     readonly property real filling: width / (points + (even ? 0.113 : 0.24) * (points - 1))
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real most: 250 * Theme.unit * Theme.textSize
@@ -98,7 +102,7 @@ Item {
     Rectangle {
         visible: !scale.pictured
         x: row.x + scale.size / 2
-        y: row.y + (scale.size - height) / 2
+        y: row.y + (scale.tall - height) / 2
         width: scale.span - scale.size
         height: 4 * Theme.unit
         color: Theme.edge
@@ -127,7 +131,7 @@ Item {
                 focusPolicy: on || (scale.value === 0 && index === 0) ? Qt.StrongFocus : Qt.ClickFocus
                 focus: index === 0
                 width: scale.size
-                height: scale.size
+                height: scale.tall
                 scale: down ? 0.94 : 1
                 Accessible.role: Accessible.RadioButton
                 Accessible.name: `${scale.label} ${number}` + (index === 0 ? ` ${scale.leftEnd}` : number === scale.points ? ` ${scale.rightEnd}` : "")
@@ -141,7 +145,7 @@ Item {
                         anchors.centerIn: parent
                         visible: !scale.pictured
                         text: point.number
-                        font { pixelSize: Math.min(Theme.heading, Math.max((scale.inset > 0 ? 0.48 : 0.42) * scale.size, Math.min(Theme.body, 0.5 * scale.size))); bold: true }
+                        font { pixelSize: Math.min(Theme.heading, Math.max((scale.inset > 0 || scale.long ? 0.48 : 0.42) * scale.size, Math.min(Theme.body, 0.5 * scale.size))); bold: true }
                         color: point.on ? Theme.white : Theme.ink
                     }
                     Image {
@@ -162,7 +166,7 @@ Item {
                     FocusRing {
                         around: point
                         reach: 8 * Theme.unit
-                        radius: scale.pictured ? Theme.radius + reach : height / 2
+                        radius: scale.pictured ? Theme.radius + reach : width / 2
                     }
                 }
             }
