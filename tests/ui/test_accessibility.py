@@ -125,6 +125,7 @@ def test_every_screen_is_on_the_side_that_was_chosen_and_the_assistant_on_the_ot
             ("white", "lightSea"),
             ("ink", "sand"),
             ("ink", "touchable"),
+            ("ink", "resting"),
             ("faintInk", "touchable"),
             ("sea", "touchable"),
             ("deepAmber", "touchable"),

@@ -11,16 +11,17 @@ Button {
     // How wide it may be at most; its words then take more lines.
     property real most: Infinity
     property bool quiet: false
-    // A quiet one that is the way on, once what the page asks for is done: it is only tinted until then.
+    // A quiet one that is the way on, once what the page asks for is done: it looks at rest until then, unlike all that can be chosen.
     property bool waits: false
     // A few words more, such as why it waits: at its end where that is wide enough, else as a line below the words, which
     // makes it no higher.
     property string note: ""
-    // Whether it may stand below; else it is left out where there is no room at the end.
+    // Whether it may stand below, and at the end.
     property bool noteBelow: true
+    property bool noteAside: true
     // How much of its end the note takes there; the words make way for it.
     readonly property real reserved: noted.advanceWidth + 2.6 * Theme.gap
-    readonly property bool noteBeside: note !== "" && leftPadding + measure.advanceWidth + reserved <= width
+    readonly property bool noteBeside: note !== "" && noteAside && leftPadding + measure.advanceWidth + reserved <= width
     readonly property bool noteUnder: note !== "" && noteBelow && !noteBeside
     // How round it is at most.
     property real corner: Infinity
@@ -55,7 +56,7 @@ Button {
     }
     TextMetrics {
         id: noted
-        font.pixelSize: Theme.size(28)
+        font.pixelSize: Theme.size(32)
         text: button.note
     }
     contentItem: Text {
@@ -89,14 +90,14 @@ Button {
         fontSizeMode: Text.HorizontalFit
         minimumPixelSize: 24 * Theme.unit
         horizontalAlignment: Text.AlignHCenter
-        color: button.waits && button.noteBeside ? Theme.faintInk : button.waits ? Theme.ink : button.quiet ? Theme.sea : Theme.white
+        color: button.waits ? Theme.ink : button.quiet ? Theme.sea : Theme.white
         Accessible.ignored: true
     }
     background: Rectangle {
         id: ground
         radius: Math.min(height / 2, button.topPadding + button.font.pixelSize, button.corner)
-        color: button.waits ? Theme.touchable : button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
-        border.color: Theme.sea
+        color: button.waits ? Theme.resting : button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
+        border.color: button.waits && !Theme.highContrast ? Theme.edge : Theme.sea
         border.width: button.quiet || button.waits ? 3 * Theme.unit : 0
         FocusRing {
             around: button

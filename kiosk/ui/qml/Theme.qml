@@ -30,6 +30,8 @@ QtObject {
     readonly property color edge: highContrast ? "#000000" : sand
     // What can be chosen and is not: a light tint of the colour that it will have.
     readonly property color touchable: highContrast ? white : Qt.hsla(Math.max(0, accent.hslHue), Math.min(0.38, accent.hslSaturation), 0.92, 1)
+    // What cannot do yet what it is for.
+    readonly property color resting: highContrast ? white : Qt.tint(paper, Qt.alpha(sand, 0.5))
     // What lies below things that are put down on it.
     readonly property color shelf: highContrast ? "#FFFFFF" : Qt.tint(paper, Qt.alpha(sand, 0.32))
     // The outline of a card on it.

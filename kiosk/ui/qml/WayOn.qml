@@ -81,6 +81,7 @@ FocusScope {
         waits: ways.waits
         note: ways.note
         noteBelow: ways.even
+        noteAside: ways.fills
         Accessible.description: ways.reason
         words: ways.label
         focus: true
