@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import mkdtemp
@@ -164,14 +164,22 @@ def booth(make_booth: MakeBooth) -> Booth:
     return make_booth()
 
 
-@pytest.fixture(scope="module")
-def module_booth(qapp: QGuiApplication, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Booth]:
-    """Provide one booth for all tests of a module, in half the usual size: they show pages and begin no session."""
-    data = tmp_path_factory.mktemp("booth")
-    with headless(PLAIN, data, mode=HALF) as app:
+@contextmanager
+def shared_booth(
+    settings: Settings, data: Path, *, mode: RunMode = HALF, opened: Callable[[Path], Recorder] = Recorder
+) -> Iterator[Booth]:
+    """Open a booth for all tests of a module, by default in half the usual size; its window has the keyboard."""
+    with headless(settings, data, mode=mode, opened=opened) as app:
         while not (app.window.isExposed() and app.window.isActive()):
-            qapp.processEvents()
+            QGuiApplication.processEvents()
         yield Booth(app, data)
+
+
+@pytest.fixture(scope="module")
+def module_booth(qapp: QGuiApplication, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Booth]:  # noqa: ARG001 - Qt is to be there
+    """Provide one booth for all tests of a module: they show pages and begin no session."""
+    with shared_booth(PLAIN, tmp_path_factory.mktemp("booth")) as booth:
+        yield booth
 
 
 @pytest.fixture

@@ -20,8 +20,8 @@ from kiosk.experiment.events import EmbodimentName, InputDevice, WorldEvent
 from kiosk.experiment.outcomes import Stage
 from kiosk.store.queries import open_repository
 from kiosk.ui.event_loop import VirtualClock
-from tests.ui.conftest import Booth, MakeBooth
-from tests.ui.headless import HALF, SMALL, headless, short
+from tests.ui.conftest import Booth, MakeBooth, shared_booth
+from tests.ui.headless import SMALL, short
 from tests.ui.reaching import touch_screen
 from tests.ui.touring import PIN, SHORTCUT, whole_study
 
@@ -107,13 +107,10 @@ NO_SIGNS = {
 
 
 @pytest.fixture(scope="module")
-def at_work(qapp: QGuiApplication, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Booth]:
+def at_work(qapp: QGuiApplication, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Booth]:  # noqa: ARG001 - Qt is to be there
     """Provide one booth for all visitors who read."""
-    data = tmp_path_factory.mktemp("data")
-    with headless(SMALL, data, mode=HALF) as app:
-        while not app.window.isExposed():
-            qapp.processEvents()
-        yield Booth(app, data)
+    with shared_booth(SMALL, tmp_path_factory.mktemp("data")) as booth:
+        yield booth
 
 
 @pytest.fixture

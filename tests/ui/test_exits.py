@@ -11,12 +11,12 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtTest import QTest
 
 from kiosk.experiment.events import AbortRequested
-from tests.ui.conftest import Booth
+from tests.ui.conftest import Booth, shared_booth
 from tests.ui.exits.attempts import ATTEMPTS, Attempt
 from tests.ui.exits.desktops import Desktop, kiosk_on
 from tests.ui.exits.hands import Hands
 from tests.ui.exits.kiosk import CARDS, TOUCHES, Fingers
-from tests.ui.headless import PLAIN, headless
+from tests.ui.headless import PLAIN, VIRTUAL
 
 NO_KEY = Qt.KeyboardModifier.NoModifier
 BACK_S = 10
@@ -66,13 +66,10 @@ def test_every_quick_attempt_is_one_of_the_list() -> None:
 
 
 @pytest.fixture(scope="module")
-def at_work(qapp: QGuiApplication, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Booth]:
+def at_work(qapp: QGuiApplication, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Booth]:  # noqa: ARG001 - Qt is to be there
     """Provide one booth for all attempts in front of it."""
-    data = tmp_path_factory.mktemp("data")
-    with headless(PLAIN, data) as app:
-        while not (app.window.isExposed() and app.window.isActive()):
-            qapp.processEvents()
-        yield Booth(app, data)
+    with shared_booth(PLAIN, tmp_path_factory.mktemp("data"), mode=VIRTUAL) as booth:
+        yield booth
 
 
 @pytest.fixture

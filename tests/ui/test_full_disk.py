@@ -16,8 +16,7 @@ from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.transitions import BEFORE_DECIDING
 from kiosk.store.database import FILE
 from kiosk.store.queries import open_repository
-from tests.ui.conftest import Booth
-from tests.ui.headless import HALF, headless
+from tests.ui.conftest import Booth, shared_booth
 from tests.ui.small_disk import SmallDisk
 from tests.ui.visiting import PAIR, go_on_to_the_end, go_to
 
@@ -32,13 +31,10 @@ def disk() -> SmallDisk:
 
 
 @pytest.fixture(scope="module")
-def booth(qapp: QGuiApplication, disk: SmallDisk, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Booth]:
+def booth(qapp: QGuiApplication, disk: SmallDisk, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Booth]:  # noqa: ARG001 - Qt is to be there
     """Provide a booth on a disk that can be full; each test leaves it at the start screen, as a day does."""
-    data = tmp_path_factory.mktemp("data")
-    with headless(SMALL, data, mode=HALF, opened=disk.open) as app:
-        while not app.window.isExposed():
-            qapp.processEvents()
-        yield Booth(app, data)
+    with shared_booth(SMALL, tmp_path_factory.mktemp("data"), opened=disk.open) as opened:
+        yield opened
 
 
 def write_until(booth: Booth, over: Callable[[], bool]) -> None:

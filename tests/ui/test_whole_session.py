@@ -23,7 +23,7 @@ from kiosk.experiment.session_state import SessionState
 from kiosk.store.queries import open_repository
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile
-from tests.ui.conftest import Booth, MakeBooth
+from tests.ui.conftest import Booth, MakeBooth, shared_booth
 from tests.ui.headless import BRIEF, HALF, SMALL, TINY, headless, often, short
 from tests.ui.visiting import PAIR
 
@@ -32,13 +32,10 @@ BARE = often(Settings.model_validate({"questionnaires": ["trust"], **PAIR}))
 
 
 @pytest.fixture(scope="module")
-def bare(qapp: QGuiApplication, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Booth]:
+def bare(qapp: QGuiApplication, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Booth]:  # noqa: ARG001 - Qt is to be there
     """Provide one booth for all visitors who do not stay to the end: each leaves it at the start screen."""
-    data = tmp_path_factory.mktemp("bare")
-    with headless(BARE, data, mode=HALF) as app:
-        while not (app.window.isExposed() and app.window.isActive()):
-            qapp.processEvents()
-        yield Booth(app, data)
+    with shared_booth(BARE, tmp_path_factory.mktemp("bare")) as booth:
+        yield booth
 
 
 def test_a_whole_session_by_mouse_leaves_its_events_its_hints_its_answers_and_its_consent(
