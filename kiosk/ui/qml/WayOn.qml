@@ -41,13 +41,13 @@ FocusScope {
         + (returns ? back.wish + Theme.gap : 0)
     // Two equal ones share an upright page, one above the other: the lower one stands where the way on of other pages does.
     readonly property bool beside: !(even && fills && refuses) && wish <= width
-    // How wide both are beside each other: where they have all of the width, or else as their words need.
+    // How wide both are beside each other: as their words need.
     readonly property bool level: even && beside && goes && refuses
     readonly property real spread: (width - (returns ? back.width + Theme.gap : 0) - Theme.gap) / 2
     // Two equal ones are higher than a single one, with air above and below a line and its note, but where the note has
     // room beside the words.
     readonly property real stout: even && (!fills || Theme.textSize > 1.15) ? 22 * Theme.unit : 0
-    readonly property real share: fills ? spread : Math.min(spread, Math.max(go.wish, no.wish))
+    readonly property real share: Math.min(spread, Math.max(go.wish, no.wish))
     readonly property real step: (fills && Theme.textSize <= 1.15 ? 1.1 : 0.5) * Theme.gap
     // How far they reach above their place.
     readonly property real over: Math.max(0, -go.y)
