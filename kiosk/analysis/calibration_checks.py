@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import html
-import io
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -27,6 +26,7 @@ from kiosk.analysis.calibrate import (
     theta_of,
 )
 from kiosk.analysis.memory_likelihood import Array, PlayedGame, move_likelihood
+from kiosk.analysis.page import svg_of
 from kiosk.analysis.policy_figures import STYLE
 from kiosk.analysis.simulated_study import follows_hint
 from kiosk.assistance.mentaliser import TargetRule
@@ -286,7 +286,11 @@ def calibration_page(name: str, calibration: Calibration, checks: CalibrationChe
         "<h2>The population</h2>",
         _table(("", "estimate", "95 % interval"), _estimates(calibration)),
         "<h2>The people</h2>",
-        _figure(_people(calibration), "Forgetting of each person with its 95 % interval, and the population behind."),
+        _figure(
+            _people(calibration),
+            "people",
+            "Forgetting of each person with its 95 % interval, and the population behind.",
+        ),
         *_checks(checks),
     ]
     return (
@@ -330,13 +334,15 @@ def _checks(checks: CalibrationChecks) -> Iterator[str]:
         for row in checks.predicted
     )
     yield _table(("", "data", "simulated", "95 % of studies", "p"), rows)
-    yield _figure(_distributions(checks), "Flips a game: data (filled) and simulated (line).")
+    yield _figure(_distributions(checks), "flips", "Flips a game: data (filled) and simulated (line).")
     yield "<h2>Rank histogram</h2>"
     yield (
         "<p>People were drawn from the population and simulated. Where the true forgetting of each lies in its "
         f"posterior is uniform if the posterior is right (chi-square p = {checks.ranks.p:.2f}).</p>"
     )
-    yield _figure(_rank_histogram(checks.ranks), "People by the tenth of their posterior that holds the truth.")
+    yield _figure(
+        _rank_histogram(checks.ranks), "ranks", "People by the tenth of their posterior that holds the truth."
+    )
 
 
 def _table(head: Sequence[str], rows: Iterator[tuple[str, ...]]) -> str:
@@ -350,14 +356,8 @@ def _table(head: Sequence[str], rows: Iterator[tuple[str, ...]]) -> str:
     return f"<table><thead><tr>{heads}</tr></thead><tbody>{body}</tbody></table>"
 
 
-def _figure(figure: Figure, caption: str) -> str:
-    with mpl.rc_context(STYLE):
-        drawn = io.StringIO()
-        figure.savefig(drawn, format="svg", metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))
-    picture = drawn.getvalue()
-    picture = picture[picture.index("<svg") :].replace(
-        "<svg ", f'<svg role="img" aria-label="{html.escape(caption)}" ', 1
-    )
+def _figure(figure: Figure, name: str, caption: str) -> str:
+    picture = svg_of(figure, name).replace("<svg ", f'<svg role="img" aria-label="{html.escape(caption)}" ', 1)
     return f"<figure>{picture}<figcaption>{html.escape(caption)}</figcaption></figure>"
 
 

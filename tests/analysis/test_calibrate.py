@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import re
 from pathlib import Path
 from random import Random
 
@@ -165,21 +166,37 @@ def test_too_few_games_are_refused(tmp_path: Path) -> None:
         read_games(write_study(tmp_path / "study", 4))
 
 
-def test_a_spread_below_the_step_of_the_grid_is_warned_of() -> None:
+def calibration(spread: float) -> Calibration:
+    """Return a calibration without people whose population has this spread."""
     same = CredibleInterval(0.9, 0.8, 1.0)
-    found = Calibration(
+    return Calibration(
         CredibleInterval(-1.4, -1.6, -1.2),
-        CredibleInterval(STEP / 2, 0.01, 0.2),
+        CredibleInterval(spread, 0.01, 0.2),
         same,
         same,
         0.0,
         (),
         np.ones((0, len(GRID))),
     )
+
+
+CHECKED = CalibrationChecks((), RankCheck((1,) * 10, 1.0), {"tom": ([40], [50])})
+
+
+def test_a_spread_below_the_step_of_the_grid_is_warned_of() -> None:
+    found = calibration(STEP / 2)
     assert "below the grid's step" in found.warnings[0]
-    page = calibration_page("x", found, CalibrationChecks((), RankCheck((1,) * 10, 1.0), {"tom": ([40], [50])}))
+    page = calibration_page("x", found, CHECKED)
     assert "below the grid" in page
     assert "age 0" in page
+
+
+def test_the_drawings_of_a_page_share_no_id() -> None:
+    page = calibration_page("x", calibration(0.5), CHECKED)
+    ids = re.findall(r'\bid="([^"]+)"', page)
+    assert {name.partition("-")[0] for name in ids} == {"people", "flips", "ranks"}
+    assert len(ids) == len(set(ids))
+    assert set(re.findall(r'(?:href="|url\()#([^")]+)', page)) <= set(ids)
 
 
 def test_a_wrong_population_fails_the_predictive_check(tmp_path: Path) -> None:
