@@ -27,7 +27,16 @@ from kiosk.config import KNOWN_CONDITIONS, AssistanceConfig
 from kiosk.experiment.condition import Condition, target_rule
 from kiosk.files import check_writable, write_file
 from kiosk.training import policies, simulation
-from kiosk.training.learning import RECIPES, Averaging, Decisions, Exploration, Learner, LearningRate, Recipe
+from kiosk.training.learning import (
+    CHOICES,
+    RECIPES,
+    Averaging,
+    Decisions,
+    Exploration,
+    Learner,
+    LearningRate,
+    Recipe,
+)
 from kiosk.training.memory_timing import (
     CARD_THRESHOLDS,
     STARTS,
@@ -271,18 +280,10 @@ def _leave_checkpoint(learner: Learner, name: str, out: Path) -> None:
 def recipe_of(reward: Reward, **options: Any) -> Recipe:
     """Return the reward's recipe with what the options change."""
     base = RECIPES[reward]
-    kinds = {
-        "epsilon": Exploration,
-        "alpha": LearningRate,
-        "averaging": Averaging,
-        "decisions": Decisions,
-        "target": TargetRule,
-    }
     seated = {name: options.pop(name) for name in _PLAYER_OPTIONS}
     given = {name: value for name, value in options.items() if value is not None}
-    for name, kind in kinds.items():
-        if name in given:
-            given[name] = kind(given[name])
+    for name in given.keys() & CHOICES.keys():
+        given[name] = CHOICES[name](given[name])
     if "gate" in given:
         given["gate"] = GATES[given["gate"]]
     if added := given.pop("actions", ()):

@@ -118,7 +118,7 @@ DECISIONS_AN_EPISODE = 24
 """More samples of one entry than any episode gives on the average: the table of learning rates is no longer."""
 
 
-_KINDS: dict[str, type[Enum]] = {
+CHOICES: dict[str, type[Enum]] = {
     "reward": Reward,
     "epsilon": Exploration,
     "alpha": LearningRate,
@@ -126,6 +126,7 @@ _KINDS: dict[str, type[Enum]] = {
     "decisions": Decisions,
     "target": TargetRule,
 }
+"""The fields of a recipe that are one of a closed set."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,7 +148,7 @@ class Recipe:
 
     def __post_init__(self) -> None:
         """Refuse impossible numbers, and texts in place of members, with UserInputError."""
-        for name, kind in _KINDS.items():
+        for name, kind in CHOICES.items():
             one_of(name, getattr(self, name), kind)
         # They go into a file, which takes Python's own numbers only.
         object.__setattr__(self, "episodes", whole("the number of episodes", self.episodes))
