@@ -305,11 +305,3 @@ class DecisionExplainer:
             raise UserInputError(f"flip {flip} of session {number} comes out otherwise today than it was decided then")
         said = game.hints.get(flip) or game.remarks.get(flip)
         return replace(explanation, spoken=said.given.sentence if said else None)
-
-
-def explain_stored_decision(archive: SessionRepository, number: int, flip: int) -> Explanation:
-    """Return the decision before a flip (from 1) of a stored session, laid open.
-
-    Raises UserInputError if there was none, or if it comes out otherwise today than it was recorded.
-    """
-    return DecisionExplainer(archive, number).explain(flip)

@@ -311,8 +311,3 @@ def _materials(one: StudyConfig, other: StudyConfig) -> Iterator[Difference]:
 
 def _names(source: Source) -> set[str]:
     return {file.name for file in source.pictures}
-
-
-def changes_data(differences: Iterable[Difference]) -> bool:
-    """Whether any of them can change the data."""
-    return any(each.impact is not Impact.NONE for each in differences)

@@ -20,7 +20,7 @@ from kiosk.experiment.events import AssistanceDecided, CardFlipped, HintGiven, M
 from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.experiment.session import Session
 from kiosk.store.database import FILE
-from kiosk.store.queries import DecisionExplainer, explain_stored_decision, open_repository
+from kiosk.store.queries import DecisionExplainer, open_repository
 from kiosk.store.recorder import Provenance, Recorder
 from tests.experiment.driver import Driver, forgetful
 from tests.samples import mixed, plan, whole
@@ -144,7 +144,7 @@ def test_help_by_the_model_comes_below_the_threshold_and_the_explanation_says_so
         assert then.action is (ActionSpec.SUG_COL if below else ActionSpec.NO_HELP)
     helped = next(then for then in opened if then.action is ActionSpec.SUG_COL and then.card is FlipInMove.SECOND)
     with open_repository(tmp_path) as sessions:
-        told = explain_stored_decision(sessions, 1, helped.flip).to_json()
+        told = DecisionExplainer(sessions, 1).explain(helped.flip).to_json()
     assert told["q"] == {}
     assert told["timing"] == {"first": 0.3, "second": 0.6, "card": 0.0, "flips": 0, "action": "sug_col"}
     assert told["memory"]["match_recalled"] < 0.6
@@ -195,10 +195,10 @@ def test_a_session_on_the_kept_plan_says_the_same_again(tmp_path: Path) -> None:
 def test_where_nobody_helped_the_state_is_told_all_the_same(tmp_path: Path) -> None:
     stored(tmp_path, Condition.NO_ASSISTANCE)
     with open_repository(tmp_path) as sessions:
-        told = explain_stored_decision(sessions, 1, 30).to_json()
+        told = DecisionExplainer(sessions, 1).explain(30).to_json()
         assert (told["action"], told["targets"], told["target"]) == ("no_help", [], None)
         with pytest.raises(UserInputError, match="nothing was decided about a flip 400"):
-            explain_stored_decision(sessions, 1, 400)
+            DecisionExplainer(sessions, 1).explain(400)
 
 
 def test_a_flip_that_never_came_is_refused(tmp_path: Path) -> None:
@@ -207,7 +207,7 @@ def test_a_flip_that_never_came_is_refused(tmp_path: Path) -> None:
         open_repository(tmp_path) as sessions,
         pytest.raises(UserInputError, match=f"session 1 has {flips} flips; nothing was decided about a flip 400"),
     ):
-        explain_stored_decision(sessions, 1, 400)
+        DecisionExplainer(sessions, 1).explain(400)
 
 
 def test_a_session_without_a_game_is_refused(tmp_path: Path) -> None:
@@ -217,7 +217,7 @@ def test_a_session_without_a_game_is_refused(tmp_path: Path) -> None:
     with Recorder(tmp_path) as recorder:
         recorder.begin(Provenance(followed, SEED, "avatar", "unknown", kind=SessionKind.SIMULATED), driver.events)
     with open_repository(tmp_path) as sessions, pytest.raises(UserInputError, match="in session 1 no game was dealt"):
-        explain_stored_decision(sessions, 1, 1)
+        DecisionExplainer(sessions, 1).explain(1)
 
 
 @pytest.mark.parametrize("condition", [Condition.TOM, Condition.NO_ASSISTANCE])
@@ -230,7 +230,7 @@ def test_a_practice_is_not_taken_for_the_game(tmp_path: Path, condition: Conditi
     with Recorder(tmp_path) as recorder:
         recorder.begin(Provenance(followed, SEED, "avatar", "unknown", kind=SessionKind.SIMULATED), driver.events)
     with open_repository(tmp_path) as sessions, pytest.raises(UserInputError, match="in session 1 no game was dealt"):
-        explain_stored_decision(sessions, 1, 1)
+        DecisionExplainer(sessions, 1).explain(1)
 
 
 def tamper(folder: Path, statement: str) -> None:
@@ -254,7 +254,7 @@ def test_a_record_that_does_not_follow_from_the_others_is_found_out(tmp_path: Pa
         open_repository(tmp_path) as sessions,
         pytest.raises(UserInputError, match=f"flip {flip} of session 1 comes out otherwise"),
     ):
-        explain_stored_decision(sessions, 1, flip)
+        DecisionExplainer(sessions, 1).explain(flip)
 
 
 @pytest.mark.parametrize("change", ["'$.seen', 9", "'$.sentence', 'Look there.'", "'$.reason', 'nothing-known'"])
@@ -265,7 +265,7 @@ def test_a_hint_that_does_not_follow_from_the_flips_is_found_out(tmp_path: Path,
         open_repository(tmp_path) as sessions,
         pytest.raises(UserInputError, match=f"flip {flip} of session 1 comes out otherwise"),
     ):
-        explain_stored_decision(sessions, 1, flip)
+        DecisionExplainer(sessions, 1).explain(flip)
 
 
 def run(monkeypatch: pytest.MonkeyPatch, *arguments: object) -> int:
