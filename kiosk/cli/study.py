@@ -402,7 +402,7 @@ def study_import(
     dictionaries (.csv), LimeSurvey (.txt) and Qualtrics (.qsf) are known. What cannot be asked here is named line
     by line.
     """
-    from kiosk.study.survey_import import is_survey, read_survey
+    from kiosk.study.survey_import.reading import is_survey, read_survey
 
     order = ItemOrder.SHUFFLED if shuffled else ItemOrder.FIXED
     heading = Heading(

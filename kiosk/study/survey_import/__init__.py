@@ -1,0 +1,1 @@
+"""Import questionnaires from survey programs: XLSForm, REDCap, LimeSurvey and Qualtrics."""
