@@ -17,7 +17,7 @@ from kiosk.experiment.alarms import AlarmKind
 from kiosk.experiment.booth_status import CLOSED, BoothStatus
 from kiosk.ui.displays import numbered_screens
 from kiosk.ui.experimenter.alarms import alarm_words
-from kiosk.ui.experimenter.status import stage_name
+from kiosk.ui.experimenter.panel_rows import stage_name
 from kiosk.ui.window import delete_now
 from kiosk.units import MS_PER_MINUTE, MS_PER_SECOND
 

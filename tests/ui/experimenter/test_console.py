@@ -22,7 +22,7 @@ from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Recorder
 from kiosk.store.snapshot import LONGEST_BREAK_MS, OpenBreak, open_break
 from kiosk.ui.event_loop import VirtualClock
-from kiosk.ui.experimenter.console import CLOSE_MS, WORDS
+from kiosk.ui.experimenter.panel import CLOSE_MS, WORDS
 from kiosk.ui.experimenter.view_model import AuthorisationStep
 from kiosk.ui.simulated_visitor import find_item
 from kiosk.units import MS_PER_SECOND

@@ -13,7 +13,7 @@ from kiosk.experiment.booth_status import CLOSED, FILE, BoothStatus, DayCounts, 
 from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.store.snapshot import read_day
 from kiosk.ui.event_loop import InlineExecutor, VirtualClock
-from kiosk.ui.experimenter.status import StatusFile, write_status
+from kiosk.ui.experimenter.status_file import StatusFile, write_status
 from tests.samples import STATUS
 from tests.ui.experimenter.conftest import MakeDesk
 

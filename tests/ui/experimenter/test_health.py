@@ -3,33 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import pytest
 
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import Settings
-from kiosk.experiment.booth_status import DayCounts, utc
-from kiosk.experiment.condition import Condition
-from kiosk.experiment.experimenter import DEVIATIONS, Action, shortcuts
-from kiosk.experiment.outcomes import Disposition, NotRecordedReason
+from kiosk.experiment.experimenter import DEVIATIONS
 from kiosk.robots.embodiment import Health
 from kiosk.store.maintenance import FreeSpace
-from kiosk.store.participants import CountCell, EnrolmentCounts
 from kiosk.study.loader import read_study
+from kiosk.ui.experimenter.health import Clocks, HealthInputs, HealthLine, booth_lines, health_lines, is_pack_changed
 from kiosk.ui.experimenter.maintenance import BackupOutcome
-from kiosk.ui.experimenter.status import (
-    Clocks,
-    HealthInputs,
-    HealthLine,
-    booth_lines,
-    health_lines,
-    is_pack_changed,
-    neutral_names,
-    shortcut_rows,
-    today_rows,
-)
 from kiosk.ui.voice import NoVoice
 from tests.samples import CATALOGUES
 
@@ -179,59 +164,3 @@ def test_a_missing_copy_says_which_button_to_press_in_the_words_of_that_button(l
     remedies = [line.remedy for line in health_lines(replace(WELL, last_backup=None), catalogue) if line.is_due]
     assert len(remedies) == 1
     assert f"“{catalogue.text('console-backup')}”" in remedies[0]
-
-
-BEGAN = datetime(2027, 3, 1, 9, tzinfo=UTC)
-EN = CATALOGUES["en"]
-
-
-def day_at(hours: float, done: int, quota: int, completed: int) -> dict[str, str]:
-    """Return the line below the target, and the others, so many hours after the first visitor of the day."""
-    fates = {**dict.fromkeys(Disposition, 0), Disposition.CONSUMED: done}
-    counts = EnrolmentCounts({Condition.TOM: CountCell(quota, fates, 0)}, dict.fromkeys(NotRecordedReason, 0))
-    day = DayCounts(completed + 2, completed, 1, 2, utc(round(BEGAN.timestamp() * 1000)))
-    rows = today_rows(day, counts, ("game", 4 * MINUTE), BEGAN + timedelta(hours=hours), EN)
-    return {tile["name"]: f"{tile['value']}: {tile['line']}" for tile in rows["tiles"]}
-
-
-def test_the_day_is_told_in_numbers_with_a_forecast_at_its_own_pace() -> None:
-    assert day_at(3, done=20, quota=30, completed=6) == {
-        "visitors": "8: 1 ended early",
-        "completed": "6: 2 in the last hour",
-        "target": "20 / 30: " + EN.text("console-today-forecast", hours="5"),
-        "stage": "Game: for 4 min",
-    }
-
-
-@pytest.mark.parametrize(
-    ("hours", "done", "completed", "words"),
-    [
-        (0.4, 20, 6, "too few today to tell how long it takes"),
-        (3, 20, 2, "too few today to tell how long it takes"),
-        (3, 29, 9, EN.text("console-today-forecast", hours="<1")),
-        (3, 30, 9, ""),
-        (3, 31, 9, ""),
-    ],
-)
-def test_a_forecast_needs_a_pace_and_something_that_is_missing(
-    hours: float, done: int, completed: int, words: str
-) -> None:
-    assert day_at(hours, done, 30, completed)["target"] == f"{done} / 30: {words}"
-
-
-def test_without_a_target_its_games_are_none_rather_than_0() -> None:
-    assert day_at(3, done=0, quota=0, completed=6)["target"] == "-: "
-
-
-def test_conditions_have_letters_in_the_order_of_the_design() -> None:
-    name = neutral_names((None, Condition.NOTOM, Condition.TOM), EN.text)
-    assert [name(each) for each in (Condition.TOM, Condition.NOTOM, None)] == ["A", "B", "automatic"]
-
-
-def test_shortcuts_say_once_what_is_held_down_for_all_of_them() -> None:
-    shown = shortcut_rows(shortcuts(Settings().shortcuts), EN)
-    assert shown["title"] == "Shortcuts: Ctrl+Shift and …"
-    assert {"keys": "E", "words": "end the session"} in shown["rows"]
-    own = shortcut_rows({Action.PANEL: "F9", Action.QUIT: "Ctrl+Q"}, EN)
-    assert own["title"] == "Shortcuts"
-    assert [row["keys"] for row in own["rows"]] == ["F9", "Ctrl+Q"]
