@@ -237,7 +237,7 @@ def colours(palette: str) -> dict[str, QColor]:
     theme = made.property("theme")
     names = (
         *("paper", "white", "shelf", "sand", "edge", "ink", "faintInk"),
-        *("sea", "touchable", "resting", "lightSea", "amber", "deepAmber", "leaf", "done", "held"),
+        *("sea", "shy", "slot", "touchable", "resting", "lightSea", "amber", "deepAmber", "leaf", "done", "held"),
     )
     found = {name: theme.property(name) for name in names}
     made.deleteLater()

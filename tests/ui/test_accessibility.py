@@ -21,7 +21,7 @@ from kiosk.ui.simulated_visitor import lay_out
 from kiosk.ui.window import ClockMode, RunMode, WindowMode
 from tests.ui.conftest import MakeBooth
 from tests.ui.headless import headless
-from tests.ui.looking import colours, contrast, described, items, place, texts
+from tests.ui.looking import LEAST_CHANGE, colours, contrast, described, items, place, texts
 from tests.ui.sights import Sight, look
 from tests.ui.test_told_and_seen import told
 from tests.ui.touring import open_panel, tour, whole_study
@@ -140,10 +140,16 @@ def test_what_is_under_the_mouse_or_switched_on_or_off_stands_out_as_well(palett
     assert contrast(theme[text], theme[paper]) >= LEAST_CONTRAST[palette]
 
 
+@pytest.mark.parametrize("palette", LEAST_CONTRAST)
+def test_the_edge_of_a_quiet_button_is_paler_than_its_words_and_is_seen_all_the_same(palette: str) -> None:
+    theme = colours(palette)
+    assert LEAST_CHANGE <= contrast(theme["shy"], theme["paper"]) <= contrast(theme["sea"], theme["paper"])
+
+
 def test_high_contrast_knows_no_pale_tint_and_nothing_that_steps_back() -> None:
     theme = colours("high")
     # What is neither written on nor the paper itself stands out from the paper.
-    for name in ("ink", "faintInk", "sea", "lightSea", "deepAmber", "edge"):
+    for name in ("ink", "faintInk", "sea", "shy", "slot", "lightSea", "deepAmber", "edge"):
         assert contrast(theme[name], theme["paper"]) >= LEAST_CONTRAST["high"], name
     assert theme["done"] == theme["held"] == 1
 

@@ -8,9 +8,11 @@ from PySide6.QtGui import QAccessible, QAccessibleInterface
 from PySide6.QtQuick import QQuickItem
 from pytestqt.qtbot import QtBot
 
+from kiosk.config import Settings
 from kiosk.experiment.information import ConsentPage, Purpose
 from kiosk.ui.simulated_visitor import UiDriver
 from tests.ui.conftest import Booth
+from tests.ui.looking import painted, place, texts
 
 PAGE = ConsentPage(
     title="Before you begin",
@@ -170,6 +172,28 @@ def test_on_an_upright_screen_the_way_back_is_beside_the_way_on_and_to_decline_i
     assert decline.bottom() < agree.top()
     assert back.center().y() == pytest.approx(agree.center().y(), abs=1)
     assert booth.item("decline").property("font") == booth.item("agree").property("font")
+
+
+@pytest.mark.usefixtures("done")
+@pytest.mark.parametrize("language", ["en", "ar"])
+@pytest.mark.parametrize(("width", "height"), [(960, 540), (540, 960)])
+def test_what_is_to_go_and_the_words_of_the_button_are_one_group_in_its_middle(
+    booth: Booth, qtbot: QtBot, width: int, height: int, language: str
+) -> None:
+    window = booth.app.window
+    booth.app.screens.kiosk.begin((language,), language, Settings().consent)
+    window.resize(width, height)
+    qtbot.waitUntil(lambda: window.contentItem().width() == width)
+    agree = booth.item("agree")
+    words, note = (painted(each) for each in sorted(texts(agree), key=QQuickItem.objectName))
+    group = words.united(note)
+    middle = place(agree).center()
+    assert abs(group.center().x() - middle.x()) <= 2
+    assert abs(group.center().y() - middle.y()) <= 4
+    if width < height:
+        assert (note.right() < words.left()) if language == "ar" else (words.right() < note.left())
+    else:
+        assert words.center().y() < note.center().y()
 
 
 def test_a_keyboard_alone_decides(booth: Booth, done: Done) -> None:

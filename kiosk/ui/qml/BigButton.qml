@@ -13,15 +13,15 @@ Button {
     property bool quiet: false
     // A quiet one that is the way on, once what the page asks for is done: it looks at rest until then, unlike all that can be chosen.
     property bool waits: false
-    // A few words more, such as why it waits: at its end where that is wide enough, else as a line below the words, which
-    // makes it no higher.
+    // A few words more, such as why it waits: after the words where it is wide enough, else as a line below them, which makes
+    // it no higher. Both are one group in its middle.
     property string note: ""
-    // Whether it may stand below, and at the end.
+    // Whether it may stand below, and after them.
     property bool noteBelow: true
     property bool noteAside: true
-    // How much of its end the note takes there; the words make way for it.
-    readonly property real reserved: noted.advanceWidth + 2.6 * Theme.gap
-    readonly property bool noteBeside: note !== "" && noteAside && leftPadding + measure.advanceWidth + reserved <= width
+    // How far it is from the words there.
+    readonly property real apart: 0.8 * Theme.gap
+    readonly property bool noteBeside: note !== "" && noteAside && measure.advanceWidth + apart + noted.advanceWidth + 2.4 * Theme.gap <= width
     readonly property bool noteUnder: note !== "" && noteBelow && !noteBeside
     // How round it is at most.
     property real corner: Infinity
@@ -61,7 +61,7 @@ Button {
     }
     contentItem: Text {
         transform: Translate {
-            x: button.noteBeside ? -Theme.ahead * Math.max(0, button.reserved - (button.width - measure.advanceWidth) / 2) : 0
+            x: button.noteBeside ? -Theme.ahead * (button.apart + noted.advanceWidth) / 2 : 0
             y: button.noteUnder ? -below.height / 2 - 2 * Theme.unit : 0
         }
         textFormat: Text.PlainText
@@ -76,10 +76,11 @@ Button {
     Text {
         id: below
         objectName: "note"
-        x: button.noteBeside ? Theme.across(parent.width - width - 1.6 * Theme.gap, width, parent.width) : (parent.width - width) / 2
+        x: button.noteBeside ? Theme.across((parent.width + measure.advanceWidth + button.apart - noted.advanceWidth) / 2, width, parent.width) : (parent.width - width) / 2
         width: button.noteBeside ? Math.ceil(noted.advanceWidth) + 2 : parent.width - 2 * Theme.gap
-        // Both are a little higher than the middle: as much is free above the capitals as below the note's letters.
-        y: button.noteBeside ? (parent.height - height) / 2 : (parent.height + Math.ceil(1.4 * button.letters) - height) / 2 - 2 * Theme.unit
+        // On one line with the words. Below them, both are a little higher than the middle: as much is free above the capitals
+        // as below the note's letters.
+        y: button.noteBeside ? (parent.height - height) / 2 + 0.39 * (button.letters - letters) : (parent.height + Math.ceil(1.4 * button.letters) - height) / 2 - 2 * Theme.unit
         // As large as the words leave it height for.
         readonly property real letters: button.noteBeside ? noted.font.pixelSize : Math.max(24 * Theme.unit, Math.min((Theme.upright ? 0.9 : 0.84) * button.letters, (button.height - 1.4 * button.letters) / 1.4))
         visible: button.noteBeside || button.noteUnder
@@ -97,7 +98,7 @@ Button {
         id: ground
         radius: Math.min(height / 2, button.topPadding + button.font.pixelSize, button.corner)
         color: button.waits ? Theme.resting : button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
-        border.color: button.waits && !Theme.highContrast ? Theme.edge : Theme.sea
+        border.color: button.waits ? Theme.slot : Theme.shy
         border.width: button.quiet || button.waits ? 3 * Theme.unit : 0
         FocusRing {
             around: button

@@ -32,6 +32,8 @@ QtObject {
     readonly property color touchable: highContrast ? white : Qt.hsla(Math.max(0, accent.hslHue), Math.min(0.38, accent.hslSaturation), 0.92, 1)
     // What cannot do yet what it is for.
     readonly property color resting: highContrast ? white : Qt.tint(paper, Qt.alpha(sand, 0.5))
+    // The outline of what is as easy to choose as all else, and is not what most are looking for.
+    readonly property color shy: highContrast ? sea : Qt.tint(paper, Qt.alpha(sea, 0.65))
     // What lies below things that are put down on it.
     readonly property color shelf: highContrast ? "#FFFFFF" : Qt.tint(paper, Qt.alpha(sand, 0.32))
     // The outline of a card on it.
