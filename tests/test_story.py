@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtGui import QImage
 
-from kiosk.ui.rehearsal import LAYOUTS
+from kiosk.ui.screenshots import LAYOUTS
 from tests.forked import LoadedProgram
 from tests.golden import story
 

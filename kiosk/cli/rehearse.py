@@ -43,19 +43,9 @@ from kiosk.study.loader import read_study
 from kiosk.supervisor import guarded
 from kiosk.training.simulated_players import PopulationPlayer
 from kiosk.ui.app import App
-from kiosk.ui.rehearsal import (
-    LAYOUTS,
-    CoversRehearsal,
-    ProcessUsage,
-    Rehearsal,
-    Screenshots,
-    day_summary,
-    draw_visitors,
-    layout_of,
-    make_folder,
-    rehearse_day,
-    resize,
-)
+from kiosk.ui.rehearsal import CoversRehearsal, Rehearsal
+from kiosk.ui.rehearsed_day import ProcessUsage, day_summary, draw_visitors, rehearse_day
+from kiosk.ui.screenshots import LAYOUTS, Screenshots, layout_of, make_folder, resize
 from kiosk.ui.session_runner import ConditionAssigner, RunContext
 from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile, MemoryTraits, ReadingDriver, UiTimeout
 from kiosk.ui.window import ClockMode, RunMode, WindowMode, check_screen

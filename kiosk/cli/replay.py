@@ -19,9 +19,9 @@ from kiosk.experiment.session_config import SessionConfig
 from kiosk.store.queries import open_repository
 from kiosk.supervisor import guarded
 from kiosk.ui.film import check_film, write_film
-from kiosk.ui.rehearsal import make_folder
 from kiosk.ui.replay import Replay
 from kiosk.ui.replay_controls import FASTEST, SLOWEST
+from kiosk.ui.screenshots import make_folder
 from kiosk.ui.window import ClockMode, RunMode, WindowMode, check_screen
 
 

@@ -16,11 +16,11 @@ from kiosk.experiment.replay import ReplayStep
 from kiosk.experiment.session_config import SessionConfig, StudyConfig
 from kiosk.robots.selector import EmbodimentSelector
 from kiosk.ui.event_loop import Clock, EventLoop, WallClock
-from kiosk.ui.rehearsal import PICTURE_QUALITY, unwritten
 from kiosk.ui.renderer import Renderer
 from kiosk.ui.replay_controls import ReplayControls, ReplayPlayer
 from kiosk.ui.screens.avatar import AvatarBody
 from kiosk.ui.screens.registry import ScreenSet
+from kiosk.ui.screenshots import PICTURE_QUALITY, unwritten
 from kiosk.ui.voice import Voice
 from kiosk.ui.window import RunMode, Window
 

@@ -12,7 +12,7 @@ from PySide6.QtCore import QEvent, QObject
 from PySide6.QtGui import QGuiApplication
 
 from kiosk.ui.event_loop import EventLoop, VirtualClock, WallClock
-from kiosk.ui.rehearsal import rehearse_day
+from kiosk.ui.rehearsed_day import rehearse_day
 from kiosk.ui.simulated_visitor import BehaviourProfile
 from tests.ui.conftest import MakeBooth
 

@@ -19,8 +19,8 @@ from kiosk.experiment.effects import BoardWait, Mood
 from kiosk.game import Position
 from kiosk.robots.embodiment import ASIDE, BoardPoint
 from kiosk.ui.app import App
-from kiosk.ui.rehearsal import resize
 from kiosk.ui.renderer import Renderer
+from kiosk.ui.screenshots import resize
 from kiosk.ui.simulated_visitor import find_item, item_centre, lay_out
 from kiosk.ui.window import ClockMode, RunMode, WindowMode
 from tests.ui.headless import headless, often

@@ -8,7 +8,7 @@ from kiosk.experiment import effects as do
 from kiosk.experiment.effects import BoardWait, Effect, Mood
 from kiosk.experiment.outcomes import Stage
 from kiosk.game import Position
-from kiosk.ui.rehearsal import moment_of
+from kiosk.ui.screenshots import moment_of
 
 _CARD = do.RevealCard(Position(0, 0), "bee")
 _MARK = do.HighlightHint(None, 2)
