@@ -8,9 +8,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import t as student_t
 
 from kiosk.analysis.data import ExportTable, Floats
+from kiosk.analysis.statistics import jackknife_margin
 from kiosk.assistance.policy import FlipInMove
 from kiosk.experiment.events import HintCue
 from kiosk.experiment.outcomes import Stage
@@ -141,7 +141,5 @@ def _bin(low: float, chances: Floats, hits: Floats, whose: np.ndarray[tuple[int]
     if n < LEAST_PEOPLE:
         return ReliabilityBin(*found)
     cards, sums = np.bincount(owner), np.bincount(owner, hits)
-    left_out = (hits.sum() - sums) / (len(hits) - cards)
-    error = math.sqrt((n - 1) / n * float(((left_out - left_out.mean()) ** 2).sum()))
-    half = float(student_t.ppf((1 + LEVEL) / 2, n - 1)) * error
-    return ReliabilityBin(*found, max(0.0, matched - half), min(1.0, matched + half))
+    margin = jackknife_margin((hits.sum() - sums) / (len(hits) - cards), LEVEL)
+    return ReliabilityBin(*found, max(0.0, matched - margin), min(1.0, matched + margin))

@@ -14,10 +14,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.stats import t as student_t
 
 from kiosk.analysis.data import ExportTable, Floats
-from kiosk.analysis.statistics import NotEstimableError
+from kiosk.analysis.statistics import NotEstimableError, jackknife_margin
 from kiosk.assistance.policy import ActionSpec, FlipInMove
 from kiosk.experiment.outcomes import Stage
 
@@ -90,10 +89,8 @@ def estimate(draws: Draws, action: str, level: float = LEVEL) -> tuple[float, fl
     one, other = (float(hits.sum() / weights.sum()) for weights, hits in sums)
     without = [(hits.sum() - hits) / (weights.sum() - weights) for weights, hits in sums]
     left_out = without[0] - without[1]
-    n = len(people)
-    error = math.sqrt((n - 1) / n * float(((left_out - left_out.mean()) ** 2).sum()))
-    half = float(student_t.ppf((1 + level) / 2, n - 1)) * error
-    return one, other, one - other, one - other - half, one - other + half
+    margin = jackknife_margin(left_out, level)
+    return one, other, one - other, one - other - margin, one - other + margin
 
 
 def _sums(draws: Draws, owner: Any, people: int, rows: Any) -> tuple[Floats, Floats]:

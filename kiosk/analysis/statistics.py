@@ -441,6 +441,13 @@ def wilson(hits: int, n: int, level: float = 0.95) -> Estimate:
     return Estimate(share, max(0.0, centre - margin), min(1.0, centre + margin))
 
 
+def jackknife_margin(left_out: Floats, level: float = 0.95) -> float:
+    """Return half the width of an estimate's t interval, from its values with one person left out at a time."""
+    n = len(left_out)
+    error = math.sqrt((n - 1) / n * float(((left_out - left_out.mean()) ** 2).sum()))
+    return float(special.stdtrit(n - 1, (1 + level) / 2)) * error
+
+
 # Power
 
 

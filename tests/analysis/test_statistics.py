@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy import stats
 
 from kiosk.analysis import models, statistics
 from kiosk.analysis.statistics import NotEstimableError
@@ -119,6 +120,14 @@ def test_a_bootstrap_is_near_the_interval_of_t_where_that_holds() -> None:
     found, test = statistics.bootstrap_difference(x, y), statistics.student(x, y)
     assert found == statistics.bootstrap_difference(x, y)
     assert [found.low, found.high] == pytest.approx([test.low, test.high], abs=0.6)
+
+
+def test_the_jackknife_of_a_mean_is_the_interval_of_t() -> None:
+    x, _ = groups("plain")
+    left_out = (x.sum() - x) / (len(x) - 1)
+    low, high = stats.t.interval(0.9, len(x) - 1, x.mean(), stats.sem(x))
+    margin = statistics.jackknife_margin(left_out, 0.9)
+    assert [x.mean() - margin, x.mean() + margin] == pytest.approx([low, high])
 
 
 def test_corrections_leave_missing_tests_out() -> None:
