@@ -12,7 +12,7 @@ from kiosk.assistance.comments import Comment
 from kiosk.assistance.hesitation import Wait
 from kiosk.assistance.memory_model import MemoryEstimate, MemoryModel, MemoryTiming
 from kiosk.assistance.mentaliser import Hint, Mentaliser, Target, TargetRule
-from kiosk.assistance.policy import ACTIONS, ActionSpec, FlipInMove, Gate, GateDecision, Phase, Precision, QTable, State
+from kiosk.assistance.policy import ACTIONS, ActionSpec, Gate, GateDecision, Phase, Precision, QTable, State
 from kiosk.config import AssistanceConfig
 from kiosk.game import Board, Concentration, IllegalFlip, Position
 from kiosk.lazy_dataclass import dataclass
@@ -144,10 +144,7 @@ def decide(  # noqa: PLR0913 - what a decision is made from
         if override is None and rng is not None:
             action = rules.draw(greedy, policy.actions, rng)
         probability = rules.probability(action, greedy, policy.actions)
-    hint = None
-    if action.needs_target:
-        target = point(game)
-        hint = Hint(action, FlipInMove.coming(game), target, game.board.card(target.position))
+    hint = Hint.coming(action, point(game), game) if action.needs_target else None
     return Decision(state, verdict, q, action, hint, policy.actions, memory, by_memory, probability, game.flips)
 
 
@@ -188,9 +185,8 @@ class Assistant:
 
     def offer(self, game: Concentration, action: ActionSpec) -> Hint:
         """Return a hint for the coming flip of ``game`` after all, though no help had been decided."""
-        target = self._mentaliser.target(game)
         self._last = action
-        return Hint(action, FlipInMove.coming(game), target, game.board.card(target.position))
+        return Hint.coming(action, self._mentaliser.target(game), game)
 
     def _estimate(self, game: Concentration) -> MemoryEstimate | None:
         """Return what the player may remember, where that is modelled."""

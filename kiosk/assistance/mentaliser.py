@@ -79,6 +79,11 @@ class Hint:
     target: Target
     name: str
 
+    @classmethod
+    def coming(cls, action: ActionSpec, target: Target, game: Concentration) -> Hint:
+        """Return the hint at a target for the coming flip of ``game``."""
+        return cls(action, FlipInMove.coming(game), target, game.board.card(target.position))
+
     @property
     def row(self) -> int | None:
         """The row that is pointed at, from 0, or None if the action does not name one."""

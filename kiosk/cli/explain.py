@@ -143,7 +143,7 @@ def reason_example(moves: str) -> ReasonExample:
     mentaliser = Mentaliser(TargetRule.MOST_FLIPPED, Random(0))
     owls = [position for position in mentaliser.candidates(game) if BOARD.card(position) == CARDS[0]]
     target = mentaliser.pointing_at(owls[-1], game)
-    hint = Hint(ActionSpec.SUG_ROW, FlipInMove.coming(game), target, BOARD.card(target.position))
+    hint = Hint.coming(ActionSpec.SUG_ROW, target, game)
     return ReasonExample(moves, hint.card, target.reason, target.seen, target.mate_seen, _sentences(hint))
 
 

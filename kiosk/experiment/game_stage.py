@@ -576,8 +576,7 @@ class PracticeStage(GameStage):
             return ActionSpec.NO_HELP, None
         if not action.needs_target:
             return action, None
-        target = self._samples.mentaliser.target(self.game)
-        return action, Hint(action, FlipInMove.coming(self.game), target, self.game.board.card(target.position))
+        return action, Hint.coming(action, self._samples.mentaliser.target(self.game), self.game)
 
     def react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
         """End early, or play."""

@@ -63,7 +63,7 @@ def asked(board: Board, taps: Iterable[int], rule: TargetRule, action: ActionSpe
             return
         if rng.random() < 1 / 12:
             target = mentaliser.target(game)
-            hint = Hint(action, FlipInMove.coming(game), target, board.card(target.position))
+            hint = Hint.coming(action, target, game)
             yield Asked(board, tuple(flips), hint)
         try:
             flips.append(game.flip(board.position(tap)).position)
