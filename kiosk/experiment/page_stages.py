@@ -59,12 +59,12 @@ class StageHandler:
     def show_again(self, outcome: OutcomeBuilder) -> None:
         """Show what is worded in another language by now."""
 
-    def accepts(self, event: WorldEvent) -> bool:  # noqa: ARG002 - most scenes take whatever comes
+    def accepts(self, event: WorldEvent) -> bool:  # noqa: ARG002 - most stages take whatever comes
         """Whether this event makes sense now."""
         return True
 
     def react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
-        """Handle an event within the scene."""
+        """Handle an event within the stage."""
 
 
 class SpeechWriter:

@@ -169,8 +169,8 @@ class SpeechState:
             outcome.effect(self._unsaid)
 
 
-class StageFactory:
-    """The scenes of a session, all made before it begins, so that a faulty one is refused at once."""
+class StageHandlers:
+    """The handlers of a session's stages, all made before it begins, so that a faulty one is refused at once."""
 
     def __init__(self, plan: SessionConfig, seed: int, log: Callable[[OutcomeBuilder], Sequence[Event]]) -> None:
         """One stream of chance for each purpose: two conditions with the same seed play the same board."""
@@ -195,7 +195,7 @@ class StageFactory:
             Stage.THANKS: lambda: ThanksStage(self.speaker, plan.timing.thanks_ms),
         }
         # All at once, so that what cannot be made is refused before a visitor sits there; but only what the study has.
-        self._scenes: dict[Stage, StageHandler] = {
+        self._handlers: dict[Stage, StageHandler] = {
             stage: makers[stage]() for stage in plan.stage_order.stages if stage in makers
         }
         self._play_in(plan.condition)
@@ -209,26 +209,23 @@ class StageFactory:
         plan = self._plan.in_condition(condition)
         game = _game(plan, self._seed, self._wording, self._numbers)
         pairs = game.game.board.pairs
-        self._scenes[Stage.GAME] = game
-        self._scenes[Stage.INTRODUCTION] = IntroductionStage(
+        self._handlers[Stage.GAME] = game
+        self._handlers[Stage.INTRODUCTION] = IntroductionStage(
             self.speaker, pairs, helped=game.helped, points=plan.cell.marks
         )
         if Stage.PRACTICE in plan.stage_order.stages:
-            self._scenes[Stage.PRACTICE] = self._practice(plan)
+            self._handlers[Stage.PRACTICE] = self._practice(plan)
 
     def translate(self, to: Translation) -> None:
         """Have all stages speak another language from now on."""
         self.language = to.catalogue.language
         self._wording.catalogue = self._practice_wording.catalogue = to.catalogue
-        for scene in self._scenes.values():
-            scene.translate(to)
+        for handler in self._handlers.values():
+            handler.translate(to)
 
     def of(self, stage: Stage) -> StageHandler:
-        """Return the scene of a stage.
-
-        Before the first and after the last one nothing is to be seen of a session.
-        """
-        return self._scenes.get(stage, _NOTHING)
+        """Return the handler of a stage; before the first and after the last one it shows nothing."""
+        return self._handlers.get(stage, _NOTHING)
 
     def _practice(self, plan: SessionConfig) -> PracticeStage:
         """Make the practice; its hints have streams of chance of their own, and change nothing of the game."""
@@ -296,9 +293,9 @@ class Session:
         self._log: list[Event] = []
         self._measured = (0, Measures())
         self._waiting: set[Timer] = set()
-        self._scenery = StageFactory(plan, seed, lambda outcome: [*self._log, *outcome.events])
+        self._handlers = StageHandlers(plan, seed, lambda outcome: [*self._log, *outcome.events])
         self._presence = IdleTimeout(plan.settings.idle_ms, self._reading_ms)
-        self._talk = SpeechState(self._scenery.speaker)
+        self._talk = SpeechState(self._handlers.speaker)
 
     def handle(self, event: WorldEvent) -> Outcome:
         """Return what one event leads to; raise InvalidTransition, and change nothing, if it has no place now."""
@@ -307,7 +304,7 @@ class Session:
         self._presence.react(event, self.stage, outcome)
         self._talk.react(event, outcome)
         self._react(event, outcome)
-        self._scenery.of(self.stage).react(event, outcome)
+        self._handlers.of(self.stage).react(event, outcome)
         for step in (event, *outcome.events):
             self._go_on_after(step, outcome)
         self._offer_back(outcome)
@@ -324,12 +321,12 @@ class Session:
 
     def _reading_ms(self, stage: Stage) -> int:
         """How long it takes to read the longest page of a stage."""
-        return self._timing.reading_ms_per_char * self._scenery.of(stage).characters
+        return self._timing.reading_ms_per_char * self._handlers.of(stage).characters
 
     def check(self, event: WorldEvent) -> None:
         """Raise InvalidTransition if this event has no place now."""
         check_expected(self.stage, event)
-        parts = (self._presence, self._talk, self._scenery.of(self.stage))
+        parts = (self._presence, self._talk, self._handlers.of(self.stage))
         if not self._can_come(event) or not all(part.accepts(event) for part in parts):
             raise InvalidTransition(self.stage, event)
 
@@ -340,7 +337,7 @@ class Session:
             case happened.BackPressed():
                 return self._can_go_back
             case happened.LanguageSelected(language=language):
-                return language != self._scenery.language and self._plan.translation(language) is not None
+                return language != self._handlers.language and self._plan.translation(language) is not None
             case happened.CardSelected(trace=trace) if trace:
                 return self.traces_pointer
             case happened.SessionResumed():
@@ -384,14 +381,14 @@ class Session:
     def _translate(self, language: str, outcome: OutcomeBuilder) -> None:
         translation = self._plan.translation(language)
         if translation is not None:
-            self._scenery.translate(translation)
+            self._handlers.translate(translation)
             outcome.effect(do.SetLanguage(language))
-            self._scenery.of(self.stage).show_again(outcome)
+            self._handlers.of(self.stage).show_again(outcome)
 
     @property
     def _can_go_back(self) -> bool:
         """Whether there is a page before that the visitor can go back to."""
-        return self._scenery.of(self.stage).goes_back or self._stage_before is not None
+        return self._handlers.of(self.stage).goes_back or self._stage_before is not None
 
     @property
     def _stage_before(self) -> Stage | None:
@@ -410,9 +407,9 @@ class Session:
         self._presence.resume(outcome)
         # The window has begun anew, and knows nothing of what the visitor chose.
         self._offers_back = False
-        outcome.effect(do.SetLanguage(self._scenery.language))
+        outcome.effect(do.SetLanguage(self._handlers.language))
         outcome.effect(do.SetTextSize(self._text_size), do.SetSound(self._sound))
-        self._leave_scene(outcome)
+        self._leave_stage(outcome)
         self._enter(self.stage, outcome)
 
     @property
@@ -430,7 +427,7 @@ class Session:
                 after = self._course.after(self.stage, kept=self.keeping is not RecordingState.FORGOTTEN)
                 self._change_stage(after, Status.COMPLETED, outcome)
             case Transition.BACK if self._stage_before is not None:
-                self._leave_scene(outcome)
+                self._leave_stage(outcome)
                 self.stage = self._stage_before
                 self._enter(self.stage, outcome, back=True)
             case Transition.OVER:
@@ -438,7 +435,7 @@ class Session:
                 self._change_stage(Stage.OVER, _ENDINGS[type(event)], outcome)
 
     def _change_stage(self, stage: Stage, ending: Status, outcome: OutcomeBuilder) -> None:
-        self._leave_scene(outcome)
+        self._leave_stage(outcome)
         self.stage = stage
         if stage is Stage.OVER:
             outcome.emit(happened.StageEntered(at_ms=outcome.at_ms, stage=stage))
@@ -447,7 +444,7 @@ class Session:
             self._keep_from(stage, outcome)
             self._enter(stage, outcome)
 
-    def _leave_scene(self, outcome: OutcomeBuilder) -> None:
+    def _leave_stage(self, outcome: OutcomeBuilder) -> None:
         """Stop all that belongs to the stage: its waits, its words, and the question over it."""
         running = {*self._waiting, *(c.timer for c in outcome.effects if isinstance(c, do.StartTimer))}
         outcome.effect(do.StopSpeaking(), do.ClearBubble())
@@ -457,9 +454,9 @@ class Session:
     def _enter(self, stage: Stage, outcome: OutcomeBuilder, *, back: bool = False) -> None:
         outcome.emit(happened.StageEntered(at_ms=outcome.at_ms, stage=stage))
         self._presence.restart(stage, outcome)
-        outcome.effect(do.SetExpression(self._scenery.of(stage).mood))
-        scene = self._scenery.of(stage)
-        (scene.come_back if back else scene.enter)(outcome)
+        handler = self._handlers.of(stage)
+        outcome.effect(do.SetExpression(handler.mood))
+        (handler.come_back if back else handler.enter)(outcome)
 
     def _keep_from(self, stage: Stage, outcome: OutcomeBuilder) -> None:
         """Record from this stage on if the visitor is past all that is decided beforehand."""
@@ -470,7 +467,7 @@ class Session:
     def _forget(self, why: NotRecordedReason, outcome: OutcomeBuilder) -> None:
         if self.keeping is RecordingState.UNDECIDED:
             self.keeping = RecordingState.FORGOTTEN
-            self._scenery.play_by_chance()
+            self._handlers.play_by_chance()
             outcome.recording = do.DiscardRecording(why)
 
     def _end(self, status: Status, outcome: OutcomeBuilder) -> None:
