@@ -9,7 +9,7 @@ from typing import ClassVar
 from kiosk.assistance.wording import Wording
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.effects import Mood, OutcomeBuilder
+from kiosk.experiment.effects import Effect, Mood, OutcomeBuilder
 from kiosk.experiment.events import Event, Timer, WorldEvent
 from kiosk.experiment.information import RETURNING, ConsentPage, Information, Page
 from kiosk.experiment.items import (
@@ -189,12 +189,16 @@ SOME_MOVES = 30
 STUDY_PAIRS = 12
 
 
-class AboutStage(StageHandler):
-    """What the study is about."""
+class TextStage(StageHandler):
+    """A page of text on the information sheet: what the study is about, or the debriefing."""
 
-    def __init__(self, page: Page) -> None:
-        """Show this page."""
-        self._page = page
+    def __init__(
+        self, information: Information, page_of: Callable[[Information], Page], show: Callable[[Page], Effect]
+    ) -> None:
+        """Show the page that ``page_of`` takes from the sheet, with the effect that ``show`` makes."""
+        self._page = page_of(information)
+        self._page_of = page_of
+        self._show = show
 
     @property
     def characters(self) -> int:
@@ -203,11 +207,11 @@ class AboutStage(StageHandler):
 
     def enter(self, outcome: OutcomeBuilder) -> None:
         """Show it."""
-        outcome.effect(do.ShowAbout(self._page))
+        outcome.effect(self._show(self._page))
 
     def translate(self, to: Translation) -> None:
-        """Tell it in another language."""
-        self._page = to.information.about
+        """Take the page from the sheet of another language."""
+        self._page = self._page_of(to.information)
 
     def show_again(self, outcome: OutcomeBuilder) -> None:
         """Show the page of the language."""
@@ -252,31 +256,6 @@ class ResultStage(StageHandler):
 
     def show_again(self, outcome: OutcomeBuilder) -> None:
         """Show the figures and remark on them in the language of now."""
-        self.enter(outcome)
-
-
-class DebriefStage(StageHandler):
-    """What the study was about, and how to withdraw."""
-
-    def __init__(self, page: Page) -> None:
-        """Show this page."""
-        self._page = page
-
-    @property
-    def characters(self) -> int:
-        """How long the page is."""
-        return self._page.characters
-
-    def enter(self, outcome: OutcomeBuilder) -> None:
-        """Show it."""
-        outcome.effect(do.ShowDebrief(self._page))
-
-    def translate(self, to: Translation) -> None:
-        """Tell it in another language."""
-        self._page = to.information.debrief
-
-    def show_again(self, outcome: OutcomeBuilder) -> None:
-        """Show the page of the language."""
         self.enter(outcome)
 
 
@@ -333,16 +312,16 @@ def item_pages(questionnaire: Questionnaire, chance: Random) -> Iterator[ItemPag
     together: list[Item] = []
     for item in _ordered(questionnaire, chance):
         if isinstance(item, TextPage) or len(together) == questionnaire.per_page:
-            yield from _sheet(questionnaire, together)
+            yield from _page_of(questionnaire, together)
             together = []
         if isinstance(item, TextPage):
             yield ItemPage(questionnaire.id, (item,), questionnaire.title)
         else:
             together.append(item)
-    yield from _sheet(questionnaire, together)
+    yield from _page_of(questionnaire, together)
 
 
-def _sheet(questionnaire: Questionnaire, items: list[Item]) -> Iterator[ItemPage]:
+def _page_of(questionnaire: Questionnaire, items: list[Item]) -> Iterator[ItemPage]:
     if items:
         yield ItemPage(questionnaire.id, tuple(items), questionnaire.title)
 
@@ -371,7 +350,7 @@ class QuestionnaireStage(StageHandler):
         """
         self._rates = rates
         self._language = language
-        self._sheets = tuple(sheet for asked in questionnaires for sheet in item_pages(asked, chance))
+        self._pages = tuple(page for asked in questionnaires for page in item_pages(asked, chance))
         self._asked = {asked.id: asked for asked in questionnaires}
         self._number = self._furthest = 0
         self._hidden: dict[str, tuple[str, ...]] = {}
@@ -382,10 +361,10 @@ class QuestionnaireStage(StageHandler):
     @property
     def characters(self) -> int:
         """How long the longest of the pages is."""
-        return max((self._length(sheet) for sheet in self._sheets), default=0)
+        return max((self._length(page) for page in self._pages), default=0)
 
-    def _length(self, sheet: ItemPage) -> int:
-        return sum(len(in_language(words, self._language)) for item in sheet.items for words in item.texts())
+    def _length(self, page: ItemPage) -> int:
+        return sum(len(in_language(words, self._language)) for item in page.items for words in item.texts())
 
     def enter(self, outcome: OutcomeBuilder) -> None:
         """Show the first page; nothing is answered."""
@@ -412,7 +391,7 @@ class QuestionnaireStage(StageHandler):
         """Whether an answer is one that an item of this page can have."""
         match event:
             case happened.ResponseGiven(item=name, value=value):
-                item = next((item for item in self._sheet.items if item.id == name), None)
+                item = next((item for item in self._page.items if item.id == name), None)
                 return isinstance(item, Question) and self._is_seen(item) and (value is None or item.takes(value))
         return True
 
@@ -433,23 +412,23 @@ class QuestionnaireStage(StageHandler):
                 self._show(outcome)
 
     def _keep(self, item: str, value: Response | None) -> None:
-        key = (self._sheet.questionnaire, item)
+        key = (self._page.questionnaire, item)
         if value is None:
             self._answers.pop(key, None)
         else:
             self._answers[key] = value
 
     def _answer(self, item: Item) -> Response | None:
-        return self._answers.get((self._sheet.questionnaire, item.id))
+        return self._answers.get((self._page.questionnaire, item.id))
 
     def _go_on(self, outcome: OutcomeBuilder) -> None:
-        missing = tuple(item.id for item in self._sheet.items if self._lacks(item))
+        missing = tuple(item.id for item in self._page.items if self._lacks(item))
         if missing:
-            self._pointed_out |= {(self._sheet.questionnaire, item) for item in missing}
+            self._pointed_out |= {(self._page.questionnaire, item) for item in missing}
             outcome.emit(happened.SkippedItemsShown(at_ms=outcome.at_ms, items=missing))
             outcome.effect(do.ShowValidationErrors(missing))
             return
-        for number in range(self._number + 1, len(self._sheets)):
+        for number in range(self._number + 1, len(self._pages)):
             self._furthest = max(self._furthest, number)
             if self._is_asked(number):
                 self._number = number
@@ -463,18 +442,18 @@ class QuestionnaireStage(StageHandler):
         if isinstance(item, TextPage) or not self._is_seen(item) or effective_answer(self._answer(item)) is not None:
             return False
         if item.required == "once":
-            return (self._sheet.questionnaire, item.id) not in self._pointed_out
+            return (self._page.questionnaire, item.id) not in self._pointed_out
         return item.required
 
     def _show(self, outcome: OutcomeBuilder) -> None:
         self._hide(outcome)
-        names = tuple(item.id for item in self._sheet.items if self._is_seen(item))
+        names = tuple(item.id for item in self._page.items if self._is_seen(item))
         outcome.emit(
-            happened.QuestionnairePageShown(at_ms=outcome.at_ms, questionnaire=self._sheet.questionnaire, items=names)
+            happened.QuestionnairePageShown(at_ms=outcome.at_ms, questionnaire=self._page.questionnaire, items=names)
         )
-        sheet, number, of = self._sheet, self._number + 1, len(self._sheets)
-        outcome.effect(do.ShowItems(sheet.items, number, of, self._rates, self._hidden_here, sheet.title))
-        given = ((item.id, self._answer(item)) for item in self._sheet.items)
+        page, number, of = self._page, self._number + 1, len(self._pages)
+        outcome.effect(do.ShowItems(page.items, number, of, self._rates, self._hidden_here, page.title))
+        given = ((item.id, self._answer(item)) for item in self._page.items)
         outcome.effect(*(do.ShowAnswer(item, value) for item, value in given if value is not None))
 
     def _hidden_of(self, questionnaire: str) -> tuple[str, ...]:
@@ -483,23 +462,23 @@ class QuestionnaireStage(StageHandler):
 
     def _is_asked(self, number: int) -> bool:
         """Whether any item of a page is to be seen."""
-        sheet = self._sheets[number]
-        return not {item.id for item in sheet.items} <= set(self._hidden_of(sheet.questionnaire))
+        page = self._pages[number]
+        return not {item.id for item in page.items} <= set(self._hidden_of(page.questionnaire))
 
     def _is_seen(self, item: Item) -> bool:
-        return item.id not in self._hidden.get(self._sheet.questionnaire, ())
+        return item.id not in self._hidden.get(self._page.questionnaire, ())
 
     @property
     def _hidden_here(self) -> tuple[str, ...]:
-        return tuple(item.id for item in self._sheet.items if not self._is_seen(item))
+        return tuple(item.id for item in self._page.items if not self._is_seen(item))
 
     def _hide(self, outcome: OutcomeBuilder, number: int | None = None) -> None:
         """Hide what the answers hide by now in the questionnaire of a page, by default the one that is shown."""
-        of = self._sheets[self._number if number is None else number].questionnaire
+        of = self._pages[self._number if number is None else number].questionnaire
         hidden = self._hidden_of(of)
         withdrawn = tuple(item for item in hidden if self._answers.pop((of, item), None) is not None)
         reached = {
-            item.id for sheet in self._sheets[: self._furthest + 1] if sheet.questionnaire == of for item in sheet.items
+            item.id for page in self._pages[: self._furthest + 1] if page.questionnaire == of for item in page.items
         }
         hidden = tuple(item for item in hidden if item in reached)
         if hidden == self._hidden.get(of, ()):
@@ -510,5 +489,5 @@ class QuestionnaireStage(StageHandler):
         )
 
     @property
-    def _sheet(self) -> ItemPage:
-        return self._sheets[self._number]
+    def _page(self) -> ItemPage:
+        return self._pages[self._number]

@@ -29,15 +29,14 @@ from kiosk.experiment.game_stage import (
 from kiosk.experiment.information import POINTER, RETURNING
 from kiosk.experiment.outcomes import NotRecordedReason, RecordingState, Stage, Status
 from kiosk.experiment.page_stages import (
-    AboutStage,
     AgeStage,
     ConsentStage,
-    DebriefStage,
     IntroductionStage,
     QuestionnaireStage,
     ResultStage,
     SpeechWriter,
     StageHandler,
+    TextStage,
     ThanksStage,
 )
 from kiosk.experiment.projections import Measures, measure
@@ -181,7 +180,7 @@ class StageHandlers:
         self.speaker = SpeechWriter(self._wording, self._numbers)
         settings = plan.settings
         makers: dict[Stage, Callable[[], StageHandler]] = {
-            Stage.ABOUT: lambda: AboutStage(plan.information.about),
+            Stage.ABOUT: lambda: TextStage(plan.information, lambda sheet: sheet.about, do.ShowAbout),
             Stage.CONSENT: lambda: ConsentStage(plan.information, plan.language, back=plan.visit > 1),
             Stage.AGE: lambda: AgeStage(settings.consent.adult),
             Stage.ABOUT_YOU: lambda: QuestionnaireStage(
@@ -191,7 +190,7 @@ class StageHandlers:
             Stage.QUESTIONS: lambda: QuestionnaireStage(
                 plan.asked_after_game, Random(f"{seed}/questions"), plan.language, rates=True
             ),
-            Stage.DEBRIEF: lambda: DebriefStage(plan.information.debrief),
+            Stage.DEBRIEF: lambda: TextStage(plan.information, lambda sheet: sheet.debrief, do.ShowDebrief),
             Stage.THANKS: lambda: ThanksStage(self.speaker, plan.timing.thanks_ms),
         }
         # All at once, so that what cannot be made is refused before a visitor sits there; but only what the study has.
