@@ -23,8 +23,6 @@ from kiosk.experiment.game_stage import (
     GameStage,
     HintGuide,
     MoveComments,
-    PracticeStage,
-    SampleHints,
 )
 from kiosk.experiment.information import POINTER, RETURNING
 from kiosk.experiment.outcomes import NotRecordedReason, RecordingState, Stage, Status
@@ -39,6 +37,7 @@ from kiosk.experiment.page_stages import (
     TextStage,
     ThanksStage,
 )
+from kiosk.experiment.practice_stage import PracticeStage, SampleHints
 from kiosk.experiment.projections import Measures, measure
 from kiosk.experiment.session_config import SessionConfig, Translation
 from kiosk.experiment.transitions import BEFORE_DECIDING, InvalidTransition, Transition, check_expected, transition
