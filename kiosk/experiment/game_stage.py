@@ -372,7 +372,7 @@ class GameStage(StageHandler):
         outcome.effect(do.LookAt(hint.row, hint.column), do.StartTimer(Timer.READING, looks_ms))
 
     def _hold_or_open(self, wait: BoardWait, outcome: OutcomeBuilder) -> None:
-        """Hold the board while a hint is given, or open it at once where the study says that taps do not wait."""
+        """Hold the board while a hint is given, or open it at once where taps do not wait."""
         if self._timing.taps_wait:
             outcome.effect(do.LockBoard(wait))
         else:
