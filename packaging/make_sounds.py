@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kiosk.robots.audio import Clip, levelled, loudness_lufs
+from kiosk.robots.clips import Clip, levelled, loudness_lufs
 
 FOLDER = Path(__file__).resolve().parent.parent / "assets" / "sounds"
 RATE = 22_050

@@ -20,7 +20,7 @@ ROOT = Path(__file__).parents[1]
 LOADED = (
     *("kiosk.store.queries", "kiosk.study.loader", "kiosk.export.dataset", "kiosk.ui.app", "kiosk.ui.rehearsed_day"),
     # What is loaded late, so that a kiosk opens sooner, or by few commands.
-    *("kiosk.study.checks", "kiosk.robots.audio", "miniaudio", "click", "rich.table", "rich.live"),
+    *("kiosk.study.checks", "kiosk.robots.sound_device", "miniaudio", "click", "rich.table", "rich.live"),
 )
 
 ANALYSES = (

@@ -24,11 +24,11 @@ from kiosk.experiment.effects import Mood
 from kiosk.experiment.page_stages import result_speech
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.game import CARDS_IN_A_PAIR
-from kiosk.robots.audio import Player, create_player
 from kiosk.robots.driver import Capability, InspectableRobot, RobotDriver, RobotError, Utterance, chosen_voice, mismatch
 from kiosk.robots.embodiment import BoardPoint
 from kiosk.robots.furhat_rules import Request
 from kiosk.robots.registry import create_robot
+from kiosk.robots.sound_device import Player, create_player
 from kiosk.robots.tts_engines import SpeechEngine, create_engine
 from kiosk.robots.tts_worker import SpeechSource
 from kiosk.robots.voice_packs import VoicePack, cache_folder, import_recordings, recording_name, render_pack

@@ -75,7 +75,7 @@ _DEVICE_WORDS = {
 }
 
 NOWHERE = "null"
-"""The device that is heard by no one; as kiosk.robots.audio calls it."""
+"""The device that is heard by no one; as kiosk.robots.sound_device calls it."""
 
 
 def _without_trace(record: EventRecord) -> str | dict[str, object]:

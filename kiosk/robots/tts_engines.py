@@ -15,7 +15,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from kiosk.language_codes import distance
-from kiosk.robots.audio import Clip
+from kiosk.robots.clips import Clip
 
 _RENDER_S = 3.0
 """Rendering takes 10 to 60 ms; an engine that takes this long will never be done."""

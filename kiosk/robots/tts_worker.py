@@ -17,7 +17,8 @@ from typing import Any
 import numpy as np
 
 from kiosk import UserInputError
-from kiosk.robots.audio import Clip, Player, create_player, joined, levelled, loudness_steps, mouth_shapes, trimmed
+from kiosk.robots.clips import Clip, joined, levelled, loudness_steps, mouth_shapes, trimmed
+from kiosk.robots.sound_device import Player, create_player
 from kiosk.robots.tts_engines import ENGINES, create_engine
 from kiosk.robots.voice_packs import PAUSE_MS, VoicePack, cache_folder
 

@@ -20,7 +20,7 @@ import platformdirs
 
 from kiosk import UserInputError
 from kiosk.files import parse_json
-from kiosk.robots.audio import TARGET_LUFS, Clip, joined, levelled, loudness_lufs, trimmed
+from kiosk.robots.clips import TARGET_LUFS, Clip, joined, levelled, loudness_lufs, trimmed
 from kiosk.robots.tts_engines import ENGINES, SpeechEngine, is_installed
 
 if TYPE_CHECKING:

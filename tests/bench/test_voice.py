@@ -18,8 +18,8 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.cli.devices import spoken_texts
 from kiosk.config import Settings, VoiceConfig
-from kiosk.robots import audio
-from kiosk.robots.audio import Clip
+from kiosk.robots import sound_device
+from kiosk.robots.clips import Clip, joined, levelled
 from kiosk.robots.tts_engines import ENGINES, SpeechEngine
 from kiosk.robots.voice_packs import render_pack
 from kiosk.study.loader import read_study
@@ -41,7 +41,7 @@ MOST_MS = {"p50": 15.0, "p99": 40.0}
 """What a pack may take."""
 
 needs_pulse = pytest.mark.skipif(
-    not (pulse.is_installed() and audio.HAS_STREAM), reason="there is no PulseAudio, or no miniaudio"
+    not (pulse.is_installed() and sound_device.HAS_STREAM), reason="there is no PulseAudio, or no miniaudio"
 )
 
 
@@ -226,7 +226,7 @@ def word_error(engine: SpeechEngine, recognise: Callable[[Clip], list[str]]) -> 
     wrong = whole = 0
     for text in held_sentences():
         silence = Clip(np.zeros(engine.rate // 4, np.int16), engine.rate)
-        clip = audio.joined([silence, audio.levelled(engine.render(text)), silence])
+        clip = joined([silence, levelled(engine.render(text)), silence])
         wrong += word_errors(words_of(text), recognise(clip))
         whole += len(words_of(text))
     return wrong / whole

@@ -21,7 +21,7 @@ from kiosk.experiment.condition import Condition
 from kiosk.experiment.outcomes import Stage
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import PsychDs
-from kiosk.robots.audio import Clip
+from kiosk.robots.clips import Clip
 from kiosk.study.wording_drafts import Candidate, Draft, State
 from kiosk.training.simulated_players import PEOPLE_FORMAT
 from tests.cli.test_readme import DECK, LEFT_AT_ONCE, ONE_LAYOUT, rows

@@ -11,8 +11,8 @@ import pytest
 
 from kiosk.config import RobotConfig, VoiceConfig
 from kiosk.preflight import CheckResult, Severity
-from kiosk.robots import audio, voice_program
 from kiosk.robots import registry as robots_checks
+from kiosk.robots import sound_device, voice_program
 from kiosk.robots.embodiment import Health
 from kiosk.robots.registry import SLOW_MS, pack_check, robot_check, say_check, sound_check, voice_check, within_s
 from tests.robots.furhat_fake import FurhatFake, Mode
@@ -49,10 +49,13 @@ def test_a_device_that_plays_silence_is_well() -> None:
     assert found == CheckResult("sound", Severity.OK, "Loudspeaker plays")
 
 
-@pytest.mark.skipif(not audio.HAS_STREAM, reason="miniaudio has no build for this machine")
+@pytest.mark.skipif(not sound_device.HAS_STREAM, reason="miniaudio has no build for this machine")
 def test_the_voices_own_process_tries_the_device_of_the_study() -> None:
-    settings = VoiceConfig(device=audio.NOWHERE)
-    assert alone(sound_check(voice_program(settings, "en", probe=True), busy=False)).message == f"{audio.NOWHERE} plays"
+    settings = VoiceConfig(device=sound_device.NOWHERE)
+    assert (
+        alone(sound_check(voice_program(settings, "en", probe=True), busy=False)).message
+        == f"{sound_device.NOWHERE} plays"
+    )
 
 
 @pytest.mark.parametrize(

@@ -15,19 +15,20 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from kiosk.robots import audio
-from kiosk.robots.audio import NOWHERE, Clip, CommandPlayer, Player, StreamPlayer, joined
+from kiosk.robots import sound_device
+from kiosk.robots.clips import Clip, joined
+from kiosk.robots.sound_device import NOWHERE, CommandPlayer, Player, StreamPlayer
 from tests.robots import pulse
 from tests.robots.pulse import PulseServer
 
-miniaudio: Any = vars(audio)["miniaudio"]
+miniaudio: Any = vars(sound_device)["miniaudio"]
 
 RATE = 16_000
 PATIENCE_S = 10.0
 TONE = Clip.of(0.5 * np.sin(2 * np.pi * 440 * np.arange(RATE // 5) / RATE), RATE)
 LONG = Clip.of(np.tile(TONE.values, 300), RATE)
 
-streams = pytest.mark.skipif(not audio.HAS_STREAM, reason="miniaudio has no build for this machine")
+streams = pytest.mark.skipif(not sound_device.HAS_STREAM, reason="miniaudio has no build for this machine")
 virtual = pytest.mark.skipif(not pulse.is_installed(), reason="there is no PulseAudio")
 
 
@@ -87,10 +88,10 @@ def devices(monkeypatch: pytest.MonkeyPatch) -> type[FakeDevice]:
     """Put a device of the test's own in the place of the machine's, and try it again without a pause."""
     fake = type("Fake", (FakeDevice,), {"opened": [], "rates": {RATE, 44_100, 48_000}, "results": []})
     monkeypatch.setattr(miniaudio, "PlaybackDevice", fake)
-    monkeypatch.setattr(audio, "_chosen", lambda wanted: audio._Chosen(wanted or "loudspeaker", {}))
-    monkeypatch.setattr(audio, "REOPEN_S", 0.0)
-    monkeypatch.setattr(audio, "STALLED_S", 0.3)
-    monkeypatch.setattr(audio, "PROVEN_S", 0.02)
+    monkeypatch.setattr(sound_device, "_chosen", lambda wanted: sound_device._Chosen(wanted or "loudspeaker", {}))
+    monkeypatch.setattr(sound_device, "REOPEN_S", 0.0)
+    monkeypatch.setattr(sound_device, "STALLED_S", 0.3)
+    monkeypatch.setattr(sound_device, "PROVEN_S", 0.02)
     return fake
 
 
@@ -145,8 +146,8 @@ def test_nothing_is_posted_of_a_sound_that_was_stopped_or_has_no_number(ears: Ea
 def test_a_device_that_asks_for_nothing_any_more_breaks_the_sound_off_and_is_tried_again(
     ears: Ears, player: StreamPlayer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(audio, "REOPEN_S", 0.1)
-    monkeypatch.setattr(audio, "STALLED_S", 0.2)
+    monkeypatch.setattr(sound_device, "REOPEN_S", 0.1)
+    monkeypatch.setattr(sound_device, "STALLED_S", 0.2)
     player.play(1, LONG)
     assert ears.next(player)["event"] == "started"
     player._stream.stop()
@@ -164,7 +165,7 @@ def test_a_device_that_is_not_there_is_named_and_every_sentence_is_given_up(ears
     post = ears.next(player)
     assert (post["event"], post["id"]) == ("broken", 4)
     assert player.device == ""
-    assert player.why in {post["why"], audio.NO_DEVICE}
+    assert player.why in {post["why"], sound_device.NO_DEVICE}
     player.close()
 
 
@@ -191,9 +192,9 @@ def test_a_device_that_another_program_holds_is_called_busy_and_taken_when_it_is
 ) -> None:
     devices.results = [miniaudio.lib.MA_BUSY] * 3
     player = StreamPlayer(ears.posts.put, RATE)
-    assert (player.device, player.why) == ("", audio.BUSY)
+    assert (player.device, player.why) == ("", sound_device.BUSY)
     player.play(1, TONE)
-    assert ears.next(player) == {"event": "broken", "id": 1, "why": audio.BUSY}
+    assert ears.next(player) == {"event": "broken", "id": 1, "why": sound_device.BUSY}
     tended(player, lambda: devices.opened)
     tended(player, lambda: devices.opened[-1].take(80).size and player.device)
     assert ears.next(player) == {"event": "device", "device": "loudspeaker"}
@@ -212,11 +213,11 @@ def test_a_machine_that_was_suspended_breaks_the_sentence_off_once_and_sounds_ag
     devices.opened[-1].take(RATE)
     assert ears.next(player) == {"event": "started", "id": 1}
     tended(player, lambda: len(devices.opened) == 4)
-    assert ears.next(player) == {"event": "broken", "id": 1, "why": audio.GONE}
-    assert ears.next(player) == {"event": "device", "device": "", "why": audio.GONE}
+    assert ears.next(player) == {"event": "broken", "id": 1, "why": sound_device.GONE}
+    assert ears.next(player) == {"event": "device", "device": "", "why": sound_device.GONE}
     assert ears.posts.empty()
     player.play(2, TONE)
-    assert ears.next(player) == {"event": "broken", "id": 2, "why": audio.GONE}
+    assert ears.next(player) == {"event": "broken", "id": 2, "why": sound_device.GONE}
     tended(player, lambda: devices.opened[-1].take(80).size and player.device)
     assert ears.next(player) == {"event": "device", "device": "loudspeaker"}
     player.play(3, TONE)
@@ -228,7 +229,7 @@ def test_a_machine_that_was_suspended_breaks_the_sentence_off_once_and_sounds_ag
 def test_a_sound_that_is_stopped_fades_and_its_volume_is_kept(ears: Ears, player: StreamPlayer) -> None:
     player.close()
     player.set_volume(0.5)
-    player._sound = audio._Sound(None, np.full(RATE, 10_000, np.int16), player._given)
+    player._sound = sound_device._Sound(None, np.full(RATE, 10_000, np.int16), player._given)
     before = np.frombuffer(player._next(100), np.int16)
     player.stop()
     after = np.frombuffer(player._next(200), np.int16).astype(int)
@@ -265,10 +266,10 @@ def test_a_player_whose_program_fails_tells_that_there_is_no_device_until_it_pla
     monkeypatch.setenv("PATH", str(tmp_path))
     player = CommandPlayer(ears.posts.put)
     # Nothing was to be played yet.
-    assert ears.next(player) == {"event": "device", "device": "", "why": audio.NO_DEVICE}
+    assert ears.next(player) == {"event": "device", "device": "", "why": sound_device.NO_DEVICE}
     player.play(1, TONE)
     assert ears.next(player) == {"event": "started", "id": 1}
-    assert ears.next(player) == {"event": "broken", "id": 1, "why": audio.NO_DEVICE}
+    assert ears.next(player) == {"event": "broken", "id": 1, "why": sound_device.NO_DEVICE}
     program.write_text("#!/bin/sh\nexit 0\n")
     player.play(2, TONE)
     posts = [ears.next(player) for _ in range(3)]
@@ -295,7 +296,7 @@ def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[PulseServer]:
 def test_a_virtual_loudspeaker_is_given_the_sound_and_its_loss_and_return_are_told(
     server: PulseServer, ears: Ears, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(audio, "REOPEN_S", 0.2)
+    monkeypatch.setattr(sound_device, "REOPEN_S", 0.2)
     player = StreamPlayer(ears.posts.put, RATE)
     assert player.device.startswith("system default")
     with server.microphone() as recorder:
@@ -328,14 +329,14 @@ def test_a_virtual_loudspeaker_is_given_the_sound_and_its_loss_and_return_are_to
 def test_a_loudspeaker_is_silent_while_it_is_suspended_and_is_not_the_placeholder_of_none(
     server: PulseServer, ears: Ears, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(audio, "REOPEN_S", 0.2)
-    monkeypatch.setattr(audio, "LOOK_S", 0.2)
+    monkeypatch.setattr(sound_device, "REOPEN_S", 0.2)
+    monkeypatch.setattr(sound_device, "LOOK_S", 0.2)
     server.control("load-module", "module-always-sink")
     player = StreamPlayer(ears.posts.put, RATE)
     player.play(1, LONG)
     assert ears.next(player)["event"] == "started"
     server.control("suspend-sink", "booth", "1")
-    assert ears.next(player) == {"event": "broken", "id": 1, "why": audio.GONE}
+    assert ears.next(player) == {"event": "broken", "id": 1, "why": sound_device.GONE}
     assert ears.next(player)["device"] == ""
     server.control("suspend-sink", "booth", "0")
     assert ears.next(player)["device"].startswith("system default")

@@ -15,7 +15,8 @@ import pytest
 
 from kiosk.config import VoiceConfig
 from kiosk.robots import LOUDNESS_MS, voice_options
-from kiosk.robots.audio import NOWHERE, Clip, loudness_steps
+from kiosk.robots.clips import Clip, loudness_steps
+from kiosk.robots.sound_device import NOWHERE
 from kiosk.robots.tts_engines import described, voice_of
 
 RATE = 8000

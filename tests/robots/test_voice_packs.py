@@ -13,7 +13,7 @@ from kiosk import UserInputError
 from kiosk.cli.devices import spoken_texts
 from kiosk.config import ASSETS, Settings, VoiceConfig
 from kiosk.robots import tts_worker
-from kiosk.robots.audio import TARGET_LUFS, Clip, joined, levelled, loudness_lufs, mouth_shapes, trimmed
+from kiosk.robots.clips import TARGET_LUFS, Clip, joined, levelled, loudness_lufs, mouth_shapes, trimmed
 from kiosk.robots.tts_worker import SpeechSource
 from kiosk.robots.voice_packs import (
     MANIFEST,

@@ -12,7 +12,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from kiosk.experiment.effects import Mood
-from kiosk.robots.audio import Clip, mouth_shapes
+from kiosk.robots.clips import Clip, mouth_shapes
 from kiosk.robots.embodiment import BoardPoint, Health
 from kiosk.ui.screens.avatar import AvatarBody, AvatarScreen
 from kiosk.ui.voice import Voice

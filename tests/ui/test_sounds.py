@@ -12,7 +12,7 @@ from kiosk.experiment import effects as do
 from kiosk.experiment.effects import BoardWait
 from kiosk.experiment.events import Timer
 from kiosk.game import Position
-from kiosk.robots.audio import TARGET_LUFS, Clip, loudness_lufs
+from kiosk.robots.clips import TARGET_LUFS, Clip, loudness_lufs
 from kiosk.ui.renderer import SoundEffect, sound_for
 from tests.ui.conftest import MakeBooth
 from tests.ui.headless import short
