@@ -13,6 +13,7 @@ from kiosk import __version__
 from kiosk.analysis.behaviours import BINS, MemoryCalibration
 from kiosk.analysis.compare import Comparison, Line
 from kiosk.analysis.data import scale_remarks
+from kiosk.analysis.hypotheses import HypothesisResult, SensitivityResult
 from kiosk.analysis.page import (
     NOTHING,
     Block,
@@ -29,7 +30,7 @@ from kiosk.analysis.page import (
     p_value,
 )
 from kiosk.analysis.paper import paper_section
-from kiosk.analysis.report import CONFIRMATORY, HypothesisResult, Report, SensitivityResult, describe
+from kiosk.analysis.report import CONFIRMATORY, Report, describe
 from kiosk.analysis.report_figures import (
     bayes_figure,
     course_picture,

@@ -12,8 +12,9 @@ from scipy import stats
 
 from kiosk import UserInputError
 from kiosk.analysis.data import ExportedStudy, load_study
+from kiosk.analysis.hypotheses import check_hypotheses, reached_looks
 from kiosk.analysis.plan import TEMPLATE, StudyPlan, nominal_levels
-from kiosk.analysis.report import CONFIRMATORY, EXPLORATORY, check_hypotheses, make_report, reached_looks
+from kiosk.analysis.report import CONFIRMATORY, EXPLORATORY, make_report
 from kiosk.analysis.report_page import report_page
 from kiosk.analysis.sample import Sample, choose_sample
 from kiosk.cli.main import recollect
