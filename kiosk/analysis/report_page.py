@@ -13,7 +13,14 @@ from kiosk import __version__
 from kiosk.analysis.behaviours import BINS, MemoryCalibration
 from kiosk.analysis.compare import Comparison, Line
 from kiosk.analysis.data import scale_remarks
-from kiosk.analysis.hypotheses import HypothesisResult, SensitivityResult
+from kiosk.analysis.hypotheses_page import (
+    hypotheses_blocks,
+    hypotheses_table,
+    measure_of,
+    sensitivity_blocks,
+    sentence,
+    statistic_of,
+)
 from kiosk.analysis.page import (
     NOTHING,
     Block,
@@ -31,14 +38,7 @@ from kiosk.analysis.page import (
 )
 from kiosk.analysis.paper import paper_section
 from kiosk.analysis.report import CONFIRMATORY, Report, describe
-from kiosk.analysis.report_figures import (
-    bayes_figure,
-    course_picture,
-    effects_figure,
-    flow_figure,
-    reliability_picture,
-    values_picture,
-)
+from kiosk.analysis.report_figures import bayes_figure, course_picture, flow_figure, reliability_picture, values_picture
 from kiosk.analysis.sample import Measure
 
 TEST_NAMES = {
@@ -73,11 +73,11 @@ def report_page(report: Report, *, with_paper: bool = False) -> ReportPage:
 
 
 def _sections(report: Report) -> Iterator[Section]:
-    yield Section("hypotheses", "Hypotheses", tuple(_hypotheses(report)))
+    yield Section("hypotheses", "Hypotheses", tuple(hypotheses_blocks(report)))
     yield Section("participants", "Participants", tuple(_participants(report)))
     yield Section("measures", _also(report, "Measures"), tuple(_measures(report)))
     yield Section("tests", _also(report, "All tests of each measure"), tuple(_tests(report)))
-    yield Section("sensitivity", "Sensitivity", tuple(_sensitivity(report)))
+    yield Section("sensitivity", "Sensitivity", tuple(sensitivity_blocks(report)))
     yield Section("bayes", _also(report, "Bayes factors"), tuple(_bayes(report)))
     if report.design:
         yield Section("design", _also(report, "The 2 x 2 design"), tuple(_design(report)))
@@ -96,122 +96,6 @@ def _sections(report: Report) -> Iterator[Section]:
 def _also(report: Report, title: str) -> str:
     """Return the title of a part that the plan does not declare."""
     return f"{title} (exploratory)" if report.standing.status == CONFIRMATORY else title
-
-
-# Hypotheses
-
-
-def _hypotheses(report: Report) -> Iterator[Block]:
-    if report.plan.question:
-        yield report.plan.question
-    yield hypotheses_table(report)
-    yield effects_figure(report)
-    yield from (sentence(report, each) for each in report.hypotheses)
-    if report.plan.sequential is not None:
-        yield _looks_table(report)
-
-
-def hypotheses_table(report: Report) -> ReportTable:
-    """Return the hypotheses with their tests, the table of a paper."""
-    first, second = report.pair
-    rows = []
-    for each in report.hypotheses:
-        known = _measure(report, each.measure)
-        spread = [number(g * known.scale, known.digits) for g in _means_and_sds(report, each)]
-        rows.append(
-            (
-                f"{each.id}: {_SIGNS[each.direction].format(first, second)}",
-                known.title,
-                f"{spread[0]} ({spread[1]})",
-                f"{spread[2]} ({spread[3]})",
-                _statistic(each.line),
-                p_value(each.p),
-                p_value(each.corrected),
-                f"{number(each.hedges_g.estimate)} {interval(each.hedges_g.low, each.hedges_g.high)}",
-                factor(each.bayes),
-                each.verdict,
-            )
-        )
-    head = ("hypothesis", "measure", f"{first}: M (SD)", f"{second}: M (SD)", "test", "p", _corrected_head(report))
-    level = report.hypotheses[0].level
-    note = (
-        f"One-sided p where a hypothesis has a direction; the verdict compares the corrected p with {level:.4g}. "
-        "g: Hedges' g with its 95 % interval. BF10: Bayes factor for a difference (JZS, r = .707)."
-    )
-    return ReportTable(
-        "hypotheses-table", "The hypotheses of the plan.", (*head, "g [95 %]", "BF10", "verdict"), tuple(rows), note
-    )
-
-
-_SIGNS = {"less": "{} < {}", "greater": "{} > {}", "two-sided": "{} and {} differ"}
-
-
-def _corrected_head(report: Report) -> str:
-    return {"holm": "p, Holm", "bh": "p, BH", "none": "p, uncorrected"}[report.plan.correction]
-
-
-def _measure(report: Report, name: str) -> Measure:
-    return next((each for each in report.sample.measures if each.name == name), Measure(name, name))
-
-
-def _means_and_sds(report: Report, each: HypothesisResult) -> list[float]:
-    if each.measure not in {compared.measure for compared in report.comparisons}:
-        return [math.nan] * 4
-    compared = report.comparison(each.measure)
-    return [compared.mean[0], compared.sd[0], compared.mean[1], compared.sd[1]]
-
-
-def _statistic(line: Line) -> str:
-    if math.isnan(line.statistic):
-        return NOTHING
-    if line.symbol == "U":
-        return f"U = {number(line.statistic, 1)}"
-    df = number(line.df, 0 if float(line.df).is_integer() else 1)
-    return f"{line.symbol}({df}) = {number(line.statistic)}"
-
-
-def sentence(report: Report, each: HypothesisResult) -> str:
-    """Return a hypothesis in a sentence, as APA asks for it."""
-    known = _measure(report, each.measure)
-    if math.isnan(each.line.p):
-        return f"{each.id}. {known.label} could not be tested ({each.line.note or 'no values'})."
-    first, second = report.pair
-    means = [number(value * known.scale, known.digits) for value in _means_and_sds(report, each)]
-    unit = f" {known.unit}" if known.unit == "s" else ""
-    p = [text if text.startswith("<") else f"= {text}" for text in (p_value(each.p), p_value(each.corrected))]
-    corrected = f" (corrected p {p[1]})" if report.plan.correction != "none" else ""
-    side = "" if each.direction == "two-sided" else "one-sided "
-    verdict = "supports" if each.verdict == "supported" else "does not support"
-    return (
-        f"{each.id}. {known.label}: M = {means[0]}{unit} (SD = {means[1]}) in {first} and M = {means[2]}{unit} "
-        f"(SD = {means[3]}) in {second}, {_statistic(each.line)}, {side}p {p[0]}{corrected}, g = "
-        f"{number(each.hedges_g.estimate)}, 95 % CI {interval(each.hedges_g.low, each.hedges_g.high)}. "
-        f"This {verdict} the hypothesis."
-    )
-
-
-def _looks_table(report: Report) -> ReportTable:
-    rows = tuple(
-        (
-            f"{each.per_arm} an arm",
-            each.hypothesis,
-            p_value(each.p),
-            _level(each.level),
-            factor(each.bayes),
-            "stop" if each.crossed else "go on",
-        )
-        for each in report.looks
-    )
-    sequential = report.plan.sequential
-    how = sequential.spending if sequential is not None else ""
-    taken = ", ".join(str(n) for plan in report.sample.study.plans for n in plan.looks) or "none"
-    note = f"Two-sided p, corrected within each family, of the first people of each arm. Looks recorded: {taken}."
-    head = ("look", "hypothesis", "p", "level", "BF10", "rule")
-    return ReportTable("looks-table", f"The declared looks that were reached ({how}).", head, rows, note)
-
-
-def _level(level: float) -> str:
-    return NOTHING if math.isnan(level) else f"{level:.5f}".removeprefix("0")
 
 
 # Participants
@@ -300,7 +184,7 @@ def _tests(report: Report) -> Iterator[Block]:
         "numbers says why the data do not determine it."
     )
     for compared in report.comparisons:
-        measure = _measure(report, compared.measure)
+        measure = measure_of(report, compared.measure)
         rows = tuple(_test_row(line, measure) for line in compared.lines if not line.name.startswith("bayes_"))
         caption = f"{measure.title}: {first} (n = {compared.n[0]}) and {second} (n = {compared.n[1]})."
         name = f"tests-{compared.measure.replace('.', '-')}"
@@ -326,44 +210,11 @@ def _short(line: Line) -> str:
     return f"{line.symbol}({'1, ' if line.symbol == 'F' else ''}{df}) = {number(line.statistic)}"
 
 
-def _sensitivity(report: Report) -> Iterator[Block]:
-    yield "The same hypotheses, analysed in the other ways that the plan declares."
-    for each in report.sensitivity:
-        yield _sensitivity_table(report, each)
-
-
-def _sensitivity_table(report: Report, result: SensitivityResult) -> ReportTable:
-    row = next(row for row in report.plan.sensitivity if row.name == result.name)
-    rows = tuple(
-        (
-            each.id,
-            f"{each.n[0]} + {each.n[1]}",
-            f"{each.excluded[0]} + {each.excluded[1]}",
-            _statistic(each.line),
-            p_value(each.p),
-            p_value(each.corrected),
-            f"{number(each.hedges_g.estimate)} {interval(each.hedges_g.low, each.hedges_g.high)}",
-            each.verdict,
-        )
-        for each in result.results
-    )
-    side = "one-sided" if row.one_sided else "two-sided"
-    head = ("hypothesis", "n", "left out", "test", "p", "p, corrected", "g [95 %]", "verdict")
-    caption = f"{result.name}: {row.test}, {side}, exclusions {row.exclusions}, correction {row.correction}."
-    note = (
-        "Leaving out values beyond 2 SD takes away the very people whom a condition fails."
-        if "2sd" in row.exclusions
-        else ""
-    )
-    name = "".join(letter if letter.isalnum() else "-" for letter in result.name.lower())
-    return ReportTable(f"sensitivity-{name}", caption, head, rows, note)
-
-
 def _bayes(report: Report) -> Iterator[Block]:
     yield bayes_figure(report)
     scales = [line.name for line in report.comparisons[0].lines if line.name.startswith("bayes_")]
     rows = tuple(
-        (_measure(report, each.measure).label, *(factor(each.line(name).estimate) for name in scales))
+        (measure_of(report, each.measure).label, *(factor(each.line(name).estimate) for name in scales))
         for each in report.comparisons
     )
     head = ("measure", *(f"r = {name.removeprefix('bayes_')}" for name in scales))
@@ -376,7 +227,7 @@ def _bayes(report: Report) -> Iterator[Block]:
 def _design(report: Report) -> Iterator[Block]:
     rows = []
     for each in report.design:
-        label = _measure(report, each.measure).label
+        label = measure_of(report, each.measure).label
         if not each.effects:
             rows.append((label, each.note, *[NOTHING] * 3))
         for effect in each.effects:
@@ -449,10 +300,10 @@ def _comparison_table(
     rows = []
     corrected = any(not math.isnan(p) for _, p in compared)
     for each, p in compared:
-        measure = _measure(report, each.measure)
+        measure = measure_of(report, each.measure)
         welch, g = each.line("welch"), each.line("hedges_g")
         means = " / ".join(number(value * measure.scale, measure.digits) for value in each.mean)
-        cells = [f"{each.groups[0]}, {each.groups[1]}", f"{each.n[0]} + {each.n[1]}", means, _statistic(welch)]
+        cells = [f"{each.groups[0]}, {each.groups[1]}", f"{each.n[0]} + {each.n[1]}", means, statistic_of(welch)]
         cells += [p_value(welch.p), *([p_value(p)] if corrected else [])]
         rows.append((measure.title, *cells, f"{number(g.estimate)} {interval(g.low, g.high)}"))
     head = ("measure", "conditions", "n", "M", "Welch", "p", *(["p, Holm"] if corrected else []), "g [95 %]")

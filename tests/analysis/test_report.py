@@ -18,6 +18,7 @@ from click.testing import CliRunner
 from kiosk import UserInputError
 from kiosk.analysis.data import load_study
 from kiosk.analysis.hypotheses import check_hypotheses
+from kiosk.analysis.hypotheses_page import hypotheses_table
 from kiosk.analysis.page import (
     DataSource,
     Picture,
@@ -32,7 +33,6 @@ from kiosk.analysis.page import (
 from kiosk.analysis.paper import recompute
 from kiosk.analysis.plan import TEMPLATE, StudyPlan
 from kiosk.analysis.report import make_report
-from kiosk.analysis.report_page import hypotheses_table
 from kiosk.analysis.sample import ExclusionStep, choose_sample, read_exclusions
 from kiosk.cli.main import recollect
 from kiosk.export.layouts import file_of
