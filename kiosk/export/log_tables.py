@@ -10,7 +10,8 @@ from itertools import repeat
 from operator import attrgetter
 from typing import Any, NamedTuple
 
-from kiosk.experiment.events import CardSelected, event_kinds
+from kiosk.experiment.event_records import event_kinds
+from kiosk.experiment.events import CardSelected
 from kiosk.experiment.experimenter import DEVIATIONS, DeviationReason
 from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.session_state import SentencePurpose, SpeechAttempt, SpokenSentence

@@ -16,7 +16,8 @@ from kiosk.assistance.policy import QTable
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import Settings
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import Event, LanguageSelected, from_fields
+from kiosk.experiment.event_records import from_fields
+from kiosk.experiment.events import Event, LanguageSelected
 from kiosk.experiment.information import Information
 from kiosk.experiment.questionnaire import QUESTIONNAIRES, Questionnaire
 from kiosk.experiment.replay import DecisionContext, agrees_with_record

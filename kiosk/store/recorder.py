@@ -17,7 +17,8 @@ from typing import Any, Self
 
 from kiosk import StorageError, UserInputError, __version__
 from kiosk.experiment.condition import AllocationSlot, Condition
-from kiosk.experiment.events import Event, SessionEnded, WorldEvent, to_record
+from kiosk.experiment.event_records import to_record
+from kiosk.experiment.events import Event, SessionEnded, WorldEvent
 from kiosk.experiment.experimenter import AuditEvent
 from kiosk.experiment.outcomes import AllocationSource, NotRecordedReason, SessionKind, Status
 from kiosk.experiment.questionnaire import QUESTIONNAIRES

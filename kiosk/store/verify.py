@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from kiosk import UserInputError
-from kiosk.experiment.events import from_fields
+from kiosk.experiment.event_records import from_fields
 from kiosk.garbage import rare_collections
 from kiosk.store.chain import FILE as HEADS_FILE
 from kiosk.store.chain import chained_events, lost_ends, missing_since_written, unreadable_lines

@@ -7,7 +7,8 @@ import json
 import pytest
 
 from kiosk.experiment.condition import CONDITIONS, Condition
-from kiosk.experiment.events import BoardDealt, WorldEvent, from_record, to_record
+from kiosk.experiment.event_records import from_record, to_record
+from kiosk.experiment.events import BoardDealt, WorldEvent
 from tests.experiment.driver import Driver, Voice, at_random, forgetful, replay
 from tests.samples import mixed, plan, whole
 

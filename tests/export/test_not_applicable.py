@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from kiosk.experiment.events import ResponseGiven, from_record, to_record
+from kiosk.experiment.event_records import from_record, to_record
+from kiosk.experiment.events import ResponseGiven
 from kiosk.experiment.items import NOT_APPLICABLE, Response
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import Bids, PsychDs

@@ -28,7 +28,8 @@ import click
 from rich.progress import track
 
 from kiosk.config import STAGES, Settings
-from kiosk.experiment.events import Event, to_record
+from kiosk.experiment.event_records import to_record
+from kiosk.experiment.events import Event
 from kiosk.experiment.outcomes import SessionKind
 from kiosk.experiment.transitions import BEFORE_DECIDING
 from kiosk.store.database import FILE

@@ -12,7 +12,8 @@ from PySide6.QtCore import QProcess
 from pytestqt.qtbot import QtBot
 
 from kiosk.config import VoiceConfig as VoiceSettings
-from kiosk.experiment.events import SpeechStarted, from_record, to_record
+from kiosk.experiment.event_records import from_record, to_record
+from kiosk.experiment.events import SpeechStarted
 from kiosk.ui.voice import EngineVoice, NoVoice
 
 SPEAKS = """

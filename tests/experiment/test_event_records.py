@@ -12,18 +12,10 @@ from hypothesis import strategies as st
 
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import ACTIONS, ActionSpec, FlipInMove, GateDecision, MoveOutcome, Phase
+from kiosk.experiment import event_records
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import (
-    EmbodimentKind,
-    EmbodimentName,
-    Event,
-    PracticeEnd,
-    SessionEvent,
-    Timer,
-    WorldEvent,
-    from_record,
-    to_record,
-)
+from kiosk.experiment.event_records import from_record, to_record
+from kiosk.experiment.events import EmbodimentKind, EmbodimentName, Event, PracticeEnd, SessionEvent, Timer, WorldEvent
 from kiosk.experiment.items import Answer
 from kiosk.experiment.outcomes import NotRecordedReason, Stage, Status
 from kiosk.game import FlipRejection, Position
@@ -131,11 +123,11 @@ def test_a_record_can_be_read_without_the_program() -> None:
 
 @pytest.mark.parametrize("kind", EVERY_EVENT, ids=lambda kind: str(kind.__name__))
 def test_what_is_not_of_its_kind_is_read_as_in_general_or_not_at_all(kind: type[Event]) -> None:
-    assert happened._kind_to_read(kind.__name__)[1] is not None
+    assert event_records._kind_to_read(kind.__name__)[1] is not None
     for wrong in ({}, {"at_ms": "early"}, {"at_ms": 3.0}, {"at_ms": True, "more": 1}, {"at_ms": None}):
         event: Event | None
         try:
-            event = happened._converter().structure(wrong, kind)
+            event = event_records._converter().structure(wrong, kind)
         except Exception:  # noqa: BLE001 - whatever it is, it is not an event
             event = None
         if event is None:
