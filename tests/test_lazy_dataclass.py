@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 
 from kiosk.lazy_dataclass import dataclass as lazy
+from kiosk.lazy_dataclass import with_values
 
 
 def _classes(dataclass: Callable[..., Any]) -> list[Any]:
@@ -132,3 +133,10 @@ class Sent:
 
 def test_one_with_slots_can_be_sent_to_another_process() -> None:
     assert pickle.loads(pickle.dumps(Sent(4))) == Sent(4)  # noqa: S301 - its own
+
+
+def test_other_values_are_given_as_the_standard_function_gives_them() -> None:
+    one = LAZY[0](1, marks=[7])
+    other = with_values(one, y=9)
+    assert vars(other) == vars(replace(one, y=9))
+    assert (type(other), other.y, one.y) == (type(one), 9, 2)

@@ -12,6 +12,7 @@ from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Effect, Mood, OutcomeBuilder
 from kiosk.experiment.events import Event, Timer, WorldEvent
 from kiosk.experiment.information import RETURNING, ConsentPage, Information, Page
+from kiosk.experiment.item_responses import effective_answer
 from kiosk.experiment.items import (
     Question,
     Response,
@@ -26,7 +27,6 @@ from kiosk.experiment.questionnaire import (
 )
 from kiosk.experiment.relevance import hidden_items
 from kiosk.experiment.session_config import Translation
-from kiosk.experiment.session_state import effective_answer
 from kiosk.lazy_dataclass import dataclass
 
 

@@ -7,12 +7,14 @@ from dataclasses import replace
 
 from kiosk.assistance.policy import FlipInMove
 from kiosk.experiment.events import Event
+from kiosk.experiment.intervals import Interval, elapsed_ms
+from kiosk.experiment.item_responses import ItemResponse
 from kiosk.experiment.items import Rating
 from kiosk.experiment.outcomes import CARDS_IN_A_MOVE
 from kiosk.experiment.questionnaire import (
     Questionnaire,
 )
-from kiosk.experiment.session_state import Interval, ItemResponse, SessionState, elapsed_ms
+from kiosk.experiment.session_state import SessionState
 from kiosk.lazy_dataclass import dataclass
 
 

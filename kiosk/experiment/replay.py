@@ -29,12 +29,12 @@ from kiosk.assistance.policy import ENCOURAGEMENT, PRAISE, ActionSpec, MoveOutco
 from kiosk.assistance.wording import Catalogue, Wording
 from kiosk.config import ConditionConfig
 from kiosk.experiment.condition import Condition, help_in
+from kiosk.experiment.dealt_boards import BoardRemark, DealtBoard
 from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import Event, HesitationNoticed, HintCue, HintGiven, RemarkTrigger, WorldEvent
 from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.session import Session
 from kiosk.experiment.session_config import SessionConfig
-from kiosk.experiment.session_state import BoardRemark, DealtBoard
 from kiosk.experiment.transitions import InvalidTransition
 from kiosk.game import Board, Concentration, Position
 from kiosk.lazy_dataclass import dataclass

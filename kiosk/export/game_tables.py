@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from kiosk.assistance.policy import FlipInMove
+from kiosk.experiment.dealt_boards import BoardFlip, BoardHint, DealtBoard
 from kiosk.experiment.events import InputDevice
-from kiosk.experiment.session_state import BoardFlip, BoardHint, DealtBoard
 from kiosk.export.columns import (
     AT,
     BOARD,

@@ -8,8 +8,8 @@ from enum import Enum
 
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import ACTIONS, MoveOutcome, Phase
+from kiosk.experiment.dealt_boards import BoardHint, BoardRemark, DealtBoard
 from kiosk.experiment.events import AssistanceDecided, HesitationNoticed, HintCue, MemoryEstimated, RemarkTrigger
-from kiosk.experiment.session_state import BoardHint, BoardRemark, DealtBoard
 from kiosk.export.columns import (
     ACTION,
     AT,

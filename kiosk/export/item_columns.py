@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from functools import partial
 
 from kiosk.experiment.information import PUBLISHING
+from kiosk.experiment.item_responses import ItemResponse
 from kiosk.experiment.items import Question, Rating, ShortText, TextPage, in_language
 from kiosk.experiment.labels import fold_name
 from kiosk.experiment.questionnaire import Item, facts
-from kiosk.experiment.session_state import ItemResponse
 from kiosk.export.columns import (
     Cell,
     Column,

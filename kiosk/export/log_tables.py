@@ -14,7 +14,7 @@ from kiosk.experiment.event_records import event_kinds
 from kiosk.experiment.events import CardSelected
 from kiosk.experiment.experimenter import DEVIATIONS, DeviationReason
 from kiosk.experiment.outcomes import Stage
-from kiosk.experiment.session_state import SentencePurpose, SpeechAttempt, SpokenSentence
+from kiosk.experiment.spoken_sentences import SentencePurpose, SpeechAttempt, SpokenSentence
 from kiosk.export.columns import (
     AT,
     EMBODIMENT,

@@ -10,8 +10,9 @@ from kiosk.experiment.condition import AllocationSlot
 from kiosk.experiment.events import (
     EmbodimentName,
 )
+from kiosk.experiment.item_responses import ItemResponse
 from kiosk.experiment.projections import Measures, ScaleScore, item_responses, measure_game
-from kiosk.experiment.session_state import ItemResponse, SessionState
+from kiosk.experiment.session_state import SessionState
 from kiosk.export.columns import (
     Cell,
     Column,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from kiosk.experiment.item_responses import ItemResponse
 from kiosk.experiment.items import (
     Rating,
     ShortText,
@@ -15,7 +16,6 @@ from kiosk.experiment.questionnaire import (
     Item,
     Questionnaire,
 )
-from kiosk.experiment.session_state import ItemResponse
 from kiosk.export.columns import (
     PARTICIPANT,
     Cell,

@@ -24,7 +24,8 @@ from kiosk.experiment.events import HintCue, HintGiven, HintHighlighted
 from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.projections import measure
 from kiosk.experiment.replay import first_difference, replay_events
-from kiosk.experiment.session_state import SentencePurpose, SessionState
+from kiosk.experiment.session_state import SessionState
+from kiosk.experiment.spoken_sentences import SentencePurpose
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import PsychDs
 from kiosk.game import Concentration, Position

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import ActionSpec, FlipInMove
 from kiosk.experiment import events as happened
+from kiosk.experiment.dealt_boards import BoardHint
 from kiosk.experiment.events import Event
 from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.projections import Measures, measure
-from kiosk.experiment.session_state import BoardHint
 from kiosk.game import Position
 from tests.experiment.driver import Driver, Voice, at_random
 from tests.samples import plan

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import Event
+from kiosk.experiment.item_responses import ItemResponse
 from kiosk.experiment.items import (
     NOT_APPLICABLE,
     Integer,
@@ -20,7 +21,7 @@ from kiosk.experiment.items import (
 )
 from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.projections import ScaleScore, item_responses, scale_scores
-from kiosk.experiment.session_state import ItemResponse, SessionState
+from kiosk.experiment.session_state import SessionState
 from tests.samples import likert, questionnaire
 
 REVERSED = {"SOC3", "AC2"}

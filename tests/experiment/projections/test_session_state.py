@@ -8,8 +8,9 @@ import pytest
 
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import EmbodimentName, Event, InputDevice
+from kiosk.experiment.intervals import Interval
 from kiosk.experiment.outcomes import Stage, Status
-from kiosk.experiment.session_state import Interval, SessionState, StageVisit
+from kiosk.experiment.session_state import SessionState, StageVisit
 from tests.experiment.driver import Driver, driven_to
 from tests.samples import INFORMATION, whole
 

@@ -14,7 +14,8 @@ from kiosk.experiment import events as happened
 from kiosk.experiment.events import EmbodimentName, Event, Timer
 from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.projections import SpeechCounts, count_speech
-from kiosk.experiment.session_state import SentencePurpose, SessionState, SpeechAttempt
+from kiosk.experiment.session_state import SessionState
+from kiosk.experiment.spoken_sentences import SentencePurpose, SpeechAttempt
 from kiosk.experiment.transitions import InvalidTransition
 from tests.experiment.driver import Driver, Voice, at_random, driven_to, with_memory
 from tests.samples import always, plan, whole
