@@ -20,7 +20,8 @@ from kiosk.robots.registry import check_robot
 from kiosk.study.checks import expected_minutes
 from kiosk.study.editing import TextPlace, change_text, find_text, text_places, why_not_editable
 from kiosk.study.loader import read_study
-from kiosk.study.translations import State, Translation, Unit, export_texts, import_texts
+from kiosk.study.translations import State, Translation, Unit
+from kiosk.study.translator_files import export_texts, import_texts
 
 if TYPE_CHECKING:
     from kiosk.experiment.session_config import SessionConfig, StudyConfig

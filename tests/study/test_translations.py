@@ -15,7 +15,8 @@ from kiosk.cli.main import recollect
 from kiosk.config import ASSETS, Settings
 from kiosk.study.checks import study_warnings
 from kiosk.study.loader import read_study
-from kiosk.study.translations import State, Translation, Unit, export_texts, import_texts, is_untranslated
+from kiosk.study.translations import State, Translation, Unit, is_untranslated
+from kiosk.study.translator_files import export_texts, import_texts
 from tests.study.test_comparison import FORM
 
 STUDY = """
