@@ -28,9 +28,13 @@ PanelSection {
     readonly property int others: (underWay ? 5 : 3) + (breaks.visible ? breaks.rows : 0)
     readonly property real fixed: frame + (mains + others - 1) * space + lower.words
     // Whether an upright page has much to tell.
-    readonly property bool full: panel.health.matters.length > 2
+    readonly property bool full: panel.health.matters.length > 2 || panel.records.sessions.length > 3
+    // The rows of an upright page without a main action, and how high they are without the spread.
+    readonly property int lines: (underWay ? 2 : 1) * (pairs.fits ? 1 : 2) + (breaks.visible ? 1 : 0) + (lower.halves ? 0 : 1)
+    readonly property real bare: frame + lines * lowest + (lines - 1) * space + lower.topPadding + (breaks.visible ? breaks.heading + breaks.spacing : 0) + (underWay && !lower.halves ? end.above : 0)
+    readonly property real lowest: (wide || full ? 80 : 90) * Theme.unit
     readonly property real share: wide && least > 0 && normal ? (least - fixed) / (others + 1.25 * mains) : 0
-    readonly property real tall: Math.floor(Math.max((wide || full ? 80 : 90) * Theme.unit + spread, Math.min(128 * Theme.unit, share)))
+    readonly property real tall: Math.floor(Math.max(lowest + spread, Math.min(128 * Theme.unit, share)))
     readonly property real mainTall: Math.floor((wide ? 1.25 : 1.1) * tall)
 
     readonly property real lettering: (normal ? wide ? 1.2 : 1.1 : 1) * Theme.dense

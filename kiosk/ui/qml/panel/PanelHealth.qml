@@ -11,24 +11,36 @@ PanelSection {
     property bool double: false
     // What lies between two columns.
     property real gutter: Theme.gap
-    property real spread: 0
     readonly property var words: panel.words
     readonly property var lines: panel.health.lines
 
-    // What a wide screen has left is shared among the lines.
-    readonly property real room: double ? 0 : least - frame - 0.5 * Theme.gap
-    readonly property real each: Math.max(0, Math.min(84 * Theme.unit, room / lines.length))
-    readonly property real longest: widest(lines.map(line => line.name), letters.font) + 14 * Theme.unit
-    readonly property real named: Math.min(0.4 * table.column, longest)
+    readonly property real longest: reach(lines, bold.font)
     // How wide it is if no line of it wraps: its mark, its name, what it says, and the steps between them.
-    readonly property real natural: 2 * inset + 1.25 * size + longest + widest(lines.map(line => line.message), letters.font) + 20 * Theme.unit
+    readonly property real natural: 2 * inset + 1.25 * size + longest + widest(lines.map(line => line.message), plain, plain.font) + 22 * Theme.unit
+    // How many lines of text stand below each other.
+    readonly property int deep: {
+        const needs = lines.map((line, at) => Math.ceil(1.05 * widest([line.message], plain, plain.font) / Math.max(1, table.column - 1.25 * size - namedIn(at) - 20 * Theme.unit)))
+        return needs.reduce((sum, _, at) => sum + (at % table.columns === 0 ? Math.max(1, ...needs.slice(at, at + table.columns)) : 0), 0)
+    }
+    // How far the names reach of the column that this line stands in.
+    function namedIn(at: int): real {
+        return Math.min(0.4 * table.column, double ? reach(lines.filter((_, other) => other % 2 === at % 2), bold.font) : longest)
+    }
     // What is measured depends on the font, which is named for that reason alone.
-    function widest(names: var, _font: font): real {
-        return Math.ceil(Math.max(0, ...names.map(name => letters.advanceWidth(name))))
+    function widest(texts: var, letters: FontMetrics, _font: font): real {
+        return Math.ceil(Math.max(0, ...texts.map(text => letters.advanceWidth(text))))
+    }
+    // As far as the longest name, and a step.
+    function reach(named: var, font: font): real {
+        return widest(named.map(line => line.name), bold, font) + 14 * Theme.unit
     }
     FontMetrics {
-        id: letters
+        id: bold
         font { pixelSize: health.size; bold: true }
+    }
+    FontMetrics {
+        id: plain
+        font.pixelSize: health.size
     }
 
     title: words["console-health"]
@@ -40,23 +52,17 @@ PanelSection {
         width: parent.width
         columns: health.double ? 2 : 1
         columnSpacing: health.gutter
-        rowSpacing: health.each > 0 ? 0 : (health.panel.health.matters.length > 3 ? 8 : 20) * Theme.unit + health.spread
+        rowSpacing: health.apart
         Repeater {
             model: health.lines
-            delegate: Item {
-                id: place
+            delegate: PanelLine {
                 required property var modelData
+                required property int index
                 width: table.column
-                height: Math.max(health.each, line.height)
-                PanelLine {
-                    id: line
-                    anchors.verticalCenter: health.double ? undefined : parent.verticalCenter
-                    width: parent.width
-                    line: place.modelData
-                    words: health.words
-                    size: health.size
-                    named: health.named
-                }
+                line: modelData
+                words: health.words
+                size: health.size
+                named: health.namedIn(index)
             }
         }
     }

@@ -30,11 +30,12 @@ Row {
         color: Theme.ink
         wrapMode: Text.Wrap
     }
-    PlainText {
+    Balanced {
         width: row.width - mark.width - name.width - 2 * row.spacing
         text: row.line.message
         font { pixelSize: row.size; bold: !row.line.is_ok }
         color: row.line.is_ok ? Theme.faintInk : Theme.deepAmber
-        wrapMode: Text.Wrap
+        horizontalAlignment: Text.AlignLeft
+        least: 0.2
     }
 }

@@ -14,7 +14,7 @@ Rectangle {
     readonly property real bar: 14 * Theme.unit
 
     // What to do stands behind what is wrong, in a column of its own, where both fit in one line; otherwise below it.
-    // They are written a little smaller if they fit so.
+    // They are written a little smaller if they fit so. Where not all fit, each that does stands behind its own words.
     readonly property real room: width - 2 * inset - 1.4 * size
     readonly property real inset: Math.round(1.1 * Theme.gap)
     readonly property real whole: widest(bold, matters.map(matter => said(matter)), bold.font)
@@ -31,12 +31,15 @@ Rectangle {
         return `${matter.name}: ${matter.message}`
     }
     // What is measured depends on the font, which is named for that reason alone.
+    function long(text: string, letters: FontMetrics, _font: font): real {
+        return Math.ceil(letters.advanceWidth(text)) + 2 * Theme.unit
+    }
     function widest(letters: FontMetrics, texts: var, _font: font): real {
         return Math.ceil(Math.max(0, ...texts.map(text => letters.advanceWidth(text)))) + 2 * Theme.unit
     }
 
     // Whole pixels, so that the cards below it end level with the one beside them.
-    height: Math.ceil(sentence.height + (beside ? 0.6 : 1.2) * Theme.gap)
+    height: Math.ceil(sentence.height + (beside ? 0.6 : 0.9) * Theme.gap)
     radius: Theme.radius
     color: Theme.amber
 
@@ -64,7 +67,7 @@ Rectangle {
     Column {
         id: sentence
         anchors { left: parent.left; right: parent.right; margins: notice.inset; verticalCenter: parent.verticalCenter }
-        spacing: notice.beside ? 0 : (notice.matters.length > 3 ? 8 : 11) * Theme.unit
+        spacing: notice.beside ? 0 : 7 * Theme.unit
         Repeater {
             model: notice.matters
             delegate: Row {
@@ -83,7 +86,7 @@ Rectangle {
                     id: words
                     width: notice.room
                     PlainText {
-                        width: notice.beside ? notice.second : parent.width
+                        width: notice.beside ? notice.second : Math.min(notice.room, notice.long(text, bold, bold.font) + Theme.gap)
                         text: notice.said(matter.modelData)
                         font { pixelSize: notice.written; bold: true }
                         color: Theme.ink
@@ -91,7 +94,7 @@ Rectangle {
                     }
                     PlainText {
                         visible: text !== ""
-                        width: notice.beside ? notice.room - notice.second : parent.width
+                        width: notice.beside ? notice.room - notice.second : Math.min(notice.room, notice.long(text, plain, plain.font))
                         text: matter.modelData.remedy
                         font.pixelSize: notice.written
                         color: Theme.ink

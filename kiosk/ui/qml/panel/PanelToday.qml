@@ -18,7 +18,7 @@ Item {
     readonly property real side: Math.floor(wide ? width * 0.265 : width)
     readonly property real main: wide ? width - side - space : width
     // The checks have what their lines need, and the tables have the rest.
-    readonly property real half: Math.floor(!wide ? width : tabled && panel.alarms.length === 0 ? Math.max(0.32 * main, Math.min(0.43 * main, health.natural)) : 0.43 * main)
+    readonly property real half: Math.floor(!wide ? width : tabled && panel.alarms.length === 0 ? Math.max(0.3 * main, Math.min(0.36 * main, health.natural)) : 0.4 * main)
 
     // Where what stands side by side begins, and where the status ends.
     readonly property real below: first.height + space
@@ -28,26 +28,20 @@ Item {
 
     // What a wide screen has left is shared among the rows of the counts and of the sessions, and so is what it lacks.
     readonly property int rows: panel.records.cells.length + panel.records.sessions.length
-    readonly property real leftOver: room > 0 && Theme.textSize <= 1.15 ? room - counts.further - (370 + 45 * rows) * Theme.unit : 0
-    readonly property real airy: 10 * Theme.unit + (wide ? Math.max(-5 * Theme.unit, Math.min(16 * Theme.unit, leftOver / (rows + 2))) : Math.max(spread, slack))
+    readonly property real leftOver: room > 0 && tabled ? room - space - counts.frame - counts.packed - counts.last - sessions.frame - sessions.packed - 4 * Theme.unit : 10 * Theme.unit * (rows + 2)
+    // Where that is not enough, the page scrolls anyway.
+    readonly property real airy: !wide ? 10 * Theme.unit + spread : leftOver / (rows + 2) < 3 * Theme.unit ? 9 * Theme.unit : Math.min(26 * Theme.unit, leftOver / (rows + 2))
     // The lines of the checks where they stand in two columns.
     readonly property int pairs: Math.ceil(health.lines.length / 2)
-    // On an upright one it is shared among all, as long as there is little to tell.
-    readonly property bool calm: !wide && Theme.textSize <= 1.15 && panel.health.matters.length < 4 && panel.alarms.length === 0 && panel.records.resumable.length === 0 && !panel.choices.canBeNext && !(panel.choices.onBreak ?? false)
-    readonly property real spread: calm ? Math.floor(Math.max(0, Math.min(24 * Theme.unit, (seen - first.height - (1043 + 66 * rows + 49 * pairs) * Theme.unit) / (rows + 9)))) : 0
-    // What is too little to be shared by all of it goes between the rows of the tables.
-    readonly property real slack: calm ? Math.floor(Math.max(0, Math.min(14 * Theme.unit, (over - counts.further - 8 * spread) / (rows + 1)))) : 0
-    readonly property real over: seen - first.height - (933 + 66 * rows + 49 * pairs) * Theme.unit
-    // Words that need more lines than usual take what they lack from between the checks.
-    readonly property real lack: wide ? 0 : Math.max(-14 * Theme.unit, Math.min(0, over / 2))
+    // On an upright one it is shared among the rows of all cards, as long as there is little to tell.
+    readonly property bool calm: !wide && tabled && panel.health.matters.length < 4 && panel.alarms.length === 0 && panel.records.resumable.length === 0 && !panel.choices.canBeNext && !(panel.choices.onBreak ?? false)
+    readonly property real bare: first.height + 4 * space + actions.bare + health.frame + health.deep * 1.37 * size + pairs * 10 * Theme.unit
+        + counts.frame + counts.packed + counts.last + sessions.frame + sessions.packed + (rows + 2) * 10 * Theme.unit + 4 * Theme.unit
+    readonly property real spread: calm ? Math.floor(Math.max(0, Math.min(24 * Theme.unit, (seen - bare) / (rows + 1 + actions.lines + pairs)))) : 0
 
-    // On an upright screen all second columns begin in line, and with them the fourth of the grid that both tables share.
-    readonly property real gutter: Math.round(40 * Theme.unit)
     readonly property bool tabled: Theme.textSize <= 1.15
-    readonly property real across: Math.floor(counts.width - 2 * counts.inset)
-    readonly property real fourth: Math.floor((across - gutter) / 2) + gutter
-    readonly property list<real> grid: (!tabled ? [] : wide ? [0, 0.142, 0.3, 0.49, 0.775].map(each => each * across) : [0, fourth / 3, 2 * fourth / 3, fourth, fourth + 0.235 * across]).map(each => Math.round(each))
-    readonly property real figure: tabled && !wide && panel.health.matters.length < 4 && panel.records.sessions.length < 6 ? 30 * Theme.textSize * Theme.unit : size
+    // On an upright screen all second columns begin in line.
+    readonly property real gutter: Math.round(40 * Theme.unit)
 
     height: wide ? Math.max(right.height, left.y + left.height, middle.y + middle.height) : middle.y + middle.height
 
@@ -55,8 +49,8 @@ Item {
         id: first
         width: today.main
         spacing: today.space
-        PanelNow { width: parent.width; panel: today.panel; size: today.size; wide: today.wide || Theme.textSize <= 1.15; split: today.wide ? today.half + today.space + (today.tabled ? today.grid[1] : 0) : Math.round(0.46 * width) }
-        PanelNotice { width: parent.width; size: Theme.upright ? today.size : 1.12 * Theme.dense; panel: today.panel; visible: matters.length > 0 }
+        PanelNow { width: parent.width; panel: today.panel; size: today.size; split: today.wide ? today.half + today.space : Math.floor((room + today.gutter) / 2) }
+        PanelNotice { width: parent.width; size: Theme.upright ? Math.max(Theme.denser, 0.93 * today.size) : 1.12 * Theme.dense; panel: today.panel; visible: matters.length > 0 }
     }
     Column {
         id: right
@@ -65,6 +59,7 @@ Item {
         width: today.side
         spacing: today.space
         PanelActions {
+            id: actions
             width: parent.width
             panel: today.panel
             wide: today.wide
@@ -89,7 +84,7 @@ Item {
             double: !today.wide && Theme.textSize <= 1.15
             gutter: today.gutter
             least: today.room
-            spread: today.spread + today.lack
+            apart: Math.max(today.airy, 10 * Theme.unit)
             // Its heading is level with that of the counts beside it.
             crown: today.wide ? counts.crown : 0
         }
@@ -107,17 +102,16 @@ Item {
             size: today.size
             words: today.words
             records: today.panel.records
-            grid: today.grid
-            figure: today.figure
+            like: sessions
             named: today.panel.choices.named
             onAsked: today.panel.wish("names", "")
         }
         PanelSessions {
+            id: sessions
             width: parent.width
             apart: today.airy
             size: today.size
-            grid: counts.gridded ? today.grid : []
-            figure: today.figure
+            like: counts
             least: Math.floor(today.wide ? today.foot - today.below - counts.height - today.space : today.seen - middle.y - y)
             words: today.words
             records: today.panel.records

@@ -1,0 +1,194 @@
+"""The panel's first page on a busy day: no word is broken, no number wraps, and rows stand equally far apart."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import asdict
+from itertools import pairwise
+from typing import Any
+
+import pytest
+from PySide6.QtCore import QCoreApplication, QPointF
+from PySide6.QtGui import QFont, QFontMetricsF, QGuiApplication
+from PySide6.QtQuick import QQuickItem
+
+from kiosk.config import Settings
+from kiosk.study.loader import read_study
+from kiosk.ui.experimenter.health import HealthLine
+from kiosk.ui.experimenter.panel import WORDS
+from kiosk.ui.experimenter.view_model import Row
+from kiosk.ui.simulated_visitor import find_item, lay_out
+from kiosk.ui.window import Window
+from tests.samples import CATALOGUES
+from tests.ui.headless import open_window
+from tests.ui.looking import items, lies_in, texts
+
+WIDE, UPRIGHT = (1920, 1080), (1080, 1920)
+ROUNDED = 3
+"""So many pixels are lost where lengths are rounded."""
+LAYOUTS = [WIDE, UPRIGHT, (1280, 800), (1366, 768)]
+
+
+@pytest.fixture(scope="module")
+def window(qapp: QGuiApplication) -> Iterator[Window]:  # noqa: ARG001 - Qt is to be there
+    """Open a window with no kiosk behind it."""
+    with open_window(read_study(Settings())) as opened:
+        yield opened
+
+
+def show(window: Window, language: str, size: tuple[int, int], text_size: float = 1.0, **parts: Row) -> None:
+    """Show the panel on a busy day, with other ``parts`` where they are given."""
+    panel = window.screens.experimenter.parts[2]
+    panel.open(is_open=False)
+    window.shown.setProperty("textSize", text_size)
+    window.shown.resize(*size)
+    told = CATALOGUES[language].text
+    panel.set_language({name: told(name) for name in WORDS})
+    shown = busy_day(language) | parts
+    panel.show_health(shown["health"])
+    panel.show_today(shown["today"])
+    panel.show_records(shown["records"])
+    panel.show_choices(shown["choices"])
+    panel.open(is_open=True)
+    QCoreApplication.processEvents()
+    lay_out(window.shown)
+    assert (window.shown.contentItem().width(), window.shown.contentItem().height()) == size
+
+
+def busy_day(language: str) -> dict[str, Any]:
+    """Return what the panel shows: two warnings, four checks, a list with a target, and a session under way."""
+    told = CATALOGUES[language].text
+    pin = HealthLine("PIN", told("console-pin-none"), is_ok=False, remedy=told("console-pin-remedy"))
+    supervisor = HealthLine(
+        told("console-supervisor"),
+        told("console-supervisor-none"),
+        is_ok=False,
+        remedy=told("console-supervisor-remedy"),
+    )
+    checks = (
+        HealthLine(told("console-robot"), told("console-robot-absent"), is_used=False),
+        HealthLine(told("console-voice"), "simulated", is_used=False),
+        HealthLine(told("console-disk"), told("console-disk-free", free="75.4 GiB")),
+        HealthLine(told("console-clock"), told("console-clock-well")),
+    )
+    tiles = (
+        ("stage", told("console-stage-game"), told("console-today-minutes", minutes=3)),
+        ("visitors", "14", told("console-today-early", early=2)),
+        ("completed", "11", told("console-today-hour", done=3)),
+        ("target", "23 / 60", told("console-today-forecast", hours="6")),
+    )
+    session: Row = {"when": "09:51", "condition": told("console-hidden"), "reason": "", "robot": ""}
+    under_way: Row = {"stage": told("console-stage-game"), "status": told("console-status-running")}
+    stopped: Row = {"stage": told("console-stage-about-you"), "status": told("console-status-stopped")}
+    return {
+        "health": {
+            "matters": [asdict(pin), asdict(supervisor)],
+            "lines": [asdict(line) for line in checks],
+            "more": [],
+        },
+        "today": {
+            "clock": "09:52",
+            "tiles": [
+                {"name": name, "title": told(f"console-today-{name}"), "value": value, "line": line}
+                for name, value, line in tiles
+            ],
+        },
+        "records": {
+            "listed": True,
+            "cells": [
+                {"name": name, "listed": True, "done": "12 / 30", "share": 0.4, "counts": ["1", "0", "2", "0"]}
+                for name in ("A", "B")
+            ],
+            "visits": told("console-visits", declined=2, under_age=1, left=3),
+            "sessions": [
+                session | under_way | {"participant": "24", "odd": False, "under_way": True},
+                session
+                | stopped
+                | {"participant": "23", "odd": True, "under_way": False, "reason": told("console-reason-technical")},
+            ],
+            "deviations": [],
+            "more": "",
+            "resumable": [],
+        },
+        "choices": {
+            **{name: [] for name in ("conditions", "embodiments", "languages", "volumes")},
+            **dict.fromkeys(("condition", "embodiment", "language", "volume", "break", "backup"), ""),
+            **dict.fromkeys(("canBeNext", "muted", "named", "staysPaused", "onBreak"), False),
+            "underWay": True,
+            "session": told("console-session-paused"),
+            "breaks": [{"value": "5", "label": told("console-break-minutes", minutes=5)}],
+        },
+    }
+
+
+def of_kind(window: Window, kind: str) -> list[QQuickItem]:
+    """Return the visible items that are this component of ours."""
+    found = items(window.shown.contentItem())
+    return [item for item in found if item.metaObject().className().partition("_QML")[0] == kind]
+
+
+def words_of(item: QQuickItem) -> str:
+    """Return what a text says."""
+    return str(item.property("text"))
+
+
+def is_broken(text: QQuickItem) -> bool:
+    """Whether a word of it needs more room than the text has."""
+    font = text.property("font")
+    assert isinstance(font, QFont)
+    letters = QFontMetricsF(font)
+    return any(letters.horizontalAdvance(word) > text.width() + 1 for word in words_of(text).split(" "))
+
+
+@pytest.mark.parametrize("language", sorted(CATALOGUES))
+@pytest.mark.parametrize("text_size", [1.0, 1.15, 1.3])
+@pytest.mark.parametrize("size", LAYOUTS)
+def test_no_word_of_a_table_is_broken(window: Window, language: str, text_size: float, size: tuple[int, int]) -> None:
+    show(window, language, size, text_size)
+    cells = [text for text in texts(window.shown.contentItem()) if lies_in(text, "PanelCell")]
+    assert len(cells) >= 6 + 5 + 2 * 6 + 2 * 5 - 1
+    assert [words_of(cell) for cell in cells if is_broken(cell)] == []
+
+
+@pytest.mark.parametrize("language", sorted(CATALOGUES))
+@pytest.mark.parametrize("size", LAYOUTS)
+def test_the_numbers_of_the_day_stay_in_one_line(window: Window, language: str, size: tuple[int, int]) -> None:
+    show(window, language, size)
+    found = [find_item(window.shown.contentItem(), f"today-{name}") for name in ("visitors", "completed", "target")]
+    values = {words_of(text): text.property("lineCount") for tile in found if tile for text in texts(tile)}
+    assert {value: values.get(value) for value in ("14", "11", "23 / 60")} == {"14": 1, "11": 1, "23 / 60": 1}
+
+
+def test_columns_stand_equally_far_apart_and_fill_the_card(window: Window) -> None:
+    unlisted = busy_day("en")["records"]
+    unlisted = unlisted | {
+        "listed": False,
+        "cells": [cell | {"listed": False, "done": "1"} for cell in unlisted["cells"]],
+    }
+    unlisted["sessions"] = unlisted["sessions"][:1]
+    show(window, "en", WIDE, records=unlisted)
+    columns: dict[int, float] = {}
+    for cell in of_kind(window, "PanelCell"):
+        start = round(cell.mapToScene(QPointF()).x())
+        columns[start] = max(columns.get(start, 0), cell.property("contentWidth"))
+    (table,) = of_kind(window, "PanelSessions")
+    edge = table.mapToScene(QPointF()).x() + table.width() - table.property("inset")
+    # Not the first, which in one table alone begins behind a mark.
+    starts = sorted(columns)[2:]
+    assert len(starts) == 4
+    steps = [after - before - columns[before] for before, after in pairwise(starts)]
+    assert max(steps) - min(steps) <= ROUNDED
+    assert edge - starts[-1] - columns[starts[-1]] == pytest.approx(0, abs=2 * ROUNDED)
+
+
+@pytest.mark.parametrize("size", [WIDE, UPRIGHT])
+def test_checks_stand_as_close_as_the_rows_of_the_tables(window: Window, size: tuple[int, int]) -> None:
+    show(window, "en", size)
+    lines = of_kind(window, "PanelLine")
+    levels = sorted({round(line.mapToScene(QPointF()).y()) for line in lines})
+    (counts,) = of_kind(window, "PanelCounts")
+    apart = max(counts.property("apart"), 10)
+    assert len(levels) > 1
+    assert [after - before - lines[0].height() for before, after in pairwise(levels)] == pytest.approx(
+        [apart] * (len(levels) - 1), abs=ROUNDED
+    )
