@@ -256,8 +256,8 @@ _EXCLUDES = {
 
 
 def _sentence(each: Hypothesis, first: str, second: str) -> str:
-    than = {"less": "lower than", "greater": "higher than", "two-sided": "different from"}[each.direction]
-    return f"{MEASURES[each.measure]} is {than} in `{first}` what it is in `{second}`"
+    than = {"less": "is lower than", "greater": "is higher than", "two-sided": "differs from"}[each.direction]
+    return f"`{first}` {than} `{second}` in {MEASURES[each.measure]}"
 
 
 def _row(row: SensitivityRow) -> str:

@@ -116,6 +116,21 @@ def test_the_preregistration_names_every_hypothesis_and_look(plan: Path) -> None
         assert words.lower() in text.lower()
 
 
+@pytest.mark.parametrize(
+    ("direction", "said"),
+    [
+        ("less", "`tom` is lower than `notom` in assistance per flip"),
+        ("greater", "`tom` is higher than `notom` in assistance per flip"),
+        ("two-sided", "`tom` differs from `notom` in assistance per flip"),
+    ],
+)
+def test_the_preregistration_says_each_hypothesis_in_a_sentence(plan: Path, direction: str, said: str) -> None:
+    old = 'measure = "assistance_per_flip"\ndirection = "less"'
+    assert old in TEMPLATE
+    plan.write_text(TEMPLATE.replace(old, old.replace("less", direction)))
+    assert f"- **H2-assistance** (assistance): {said}\n" in run("plan", "show", str(plan))
+
+
 def test_a_plan_is_frozen_once_and_no_look_comes_before_its_time(plan: Path, tmp_path: Path) -> None:
     data = tmp_path / "data"
     early = CliRunner().invoke(recollect, ["plan", "look", str(plan), "--data", str(data)])
