@@ -90,7 +90,8 @@ def make_folder(folder: Path) -> None:
     Nothing is changed if it is there. Raises FileExistsError if it is a file, and OSError.
     """
     above = [each for each in (folder, *folder.parents) if not each.exists()]
-    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    for each in reversed(above or [folder]):  # mkdir(parents=True) would leave those above open to others
+        each.mkdir(mode=0o700, exist_ok=True)
     for each in above:
         sync_folder(each.parent)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import stat
 from pathlib import Path
 
 import pytest
@@ -98,7 +99,15 @@ def test_a_new_folder_has_the_names_of_all_above_it_on_the_disk(tmp_path: Path, 
     assert set(synced) == {tmp_path.stat().st_ino, (tmp_path / "far").stat().st_ino}
     make_folder(tmp_path / "far" / "away")
     assert len(synced) == 2
-    assert (tmp_path / "far" / "away").stat().st_mode & 0o077 == 0
+
+
+@pytest.mark.skipif(os.name != "posix", reason="modes are those of POSIX")
+def test_a_new_folder_and_those_made_above_it_are_open_to_their_owner_alone(tmp_path: Path) -> None:
+    (tmp_path / "there").mkdir(mode=0o755)
+    make_folder(tmp_path / "there" / "far" / "away")
+    modes = [stat.S_IMODE(path.stat().st_mode) for path in sorted((tmp_path / "there").rglob("*"))]
+    assert modes == [0o700, 0o700]
+    assert stat.S_IMODE((tmp_path / "there").stat().st_mode) == 0o755
 
 
 def test_all_of_a_tree_is_on_the_disk(tmp_path: Path, synced: list[int]) -> None:

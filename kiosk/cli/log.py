@@ -14,6 +14,7 @@ from pathlib import Path
 from types import TracebackType
 
 from kiosk import DISK_FULL, UserInputError, why
+from kiosk.files import make_folder
 
 LOG = "recollect.log"
 LOG_BYTES = 1_000_000
@@ -95,7 +96,7 @@ def log_file(folder: Path, *, shared: bool = False) -> logging.FileHandler:
     Raises UserInputError if it cannot be written there.
     """
     try:
-        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        make_folder(folder)
         handler = _handler(folder / LOG, shared=shared, later=False)
     except OSError as error:
         if why(error) != DISK_FULL:
