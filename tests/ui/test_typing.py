@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
 from PySide6.QtCore import Qt
@@ -20,6 +22,7 @@ from kiosk.experiment.replay import replay_events
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import PsychDs
+from kiosk.places import ASSETS
 from kiosk.store.queries import open_repository
 from kiosk.ui.app import App
 from kiosk.ui.replay import Replay
@@ -186,6 +189,22 @@ def test_every_number_that_is_allowed_can_be_typed(
     enter(booth, number)
     assert given == [("n", number)]
     assert contents(booth, "number-n") == str(number)
+
+
+def test_a_numbers_keys_come_and_go_without_a_binding_loop_where_letters_have_long_rows(
+    qtbot: QtBot, qtlog: Any, tmp_path: Path
+) -> None:
+    study_in(tmp_path, NUMBER.replace("-10", "0").replace("-2", "120"))
+    shutil.copytree(ASSETS / "sentences" / "en", tmp_path / "en")
+    (tmp_path / "en" / "keys.ftl").write_text("keyboard-rows =\n    qwertzuiopü\n    asdfghjklöä\n", "utf-8")
+    study = (tmp_path / "study.toml").read_text("utf-8")
+    (tmp_path / "study.toml").write_text(study.replace('["en"]', '["./en"]'), "utf-8")
+    with at_work(Settings.read(tmp_path / "study.toml"), tmp_path / "data", qtbot) as booth:
+        booth.click("start-en")
+        assert max(map(len, booth.app.screens.form.property("keys")["letters"])) > 10
+        enter_on_screen(booth, 5)
+        booth.click("number-n")
+    assert [record.message for record in qtlog.records if "Binding loop" in record.message] == []
 
 
 def test_the_buttons_step_from_nothing_and_through_zero(booth: Booth, given: Given) -> None:
