@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from importlib import import_module
 from pathlib import Path
 from typing import Any, ClassVar
@@ -247,9 +247,9 @@ def study_cards(file: Path, sheet: Path | None, *, names: bool, practice: bool, 
     pictures = pictures_in(folder)
     drawn = draw_cards(pictures.values())
     drawings = {card: drawn[picture] for card, picture in pictures.items()}
-    called = {card: [plan.catalogue.card(card)[CARD] for plan in read.plans] for card in pictures}
+    called = {card: [plan.catalogue.forms_of(card)[CARD] for plan in read.plans] for card in pictures}
     warnings = [*(f"the picture {each.file} cannot be drawn: {each.fault}" for each in drawings.values() if each.fault)]
-    warnings += card_warnings(drawings.values())
+    warnings += [*card_warnings(drawings.values()), *_unnamed(read, pictures)]
     if sheet is not None:
         save_sheet(sheet, drawings, called)
     if as_json:
@@ -267,6 +267,14 @@ def study_cards(file: Path, sheet: Path | None, *, names: bool, practice: bool, 
         tell_caution(warning)
     if sheet is not None:
         tell_line(f"The cards are drawn on {sheet}.")
+
+
+def _unnamed(study: StudyConfig, cards: Iterable[str]) -> Iterator[str]:
+    """Yield for each language which cards it has no name for."""
+    for plan in study.plans:
+        unnamed = [card for card in cards if not plan.catalogue.names(card)]
+        if unnamed:
+            yield f"no name in {plan.language!r}, so that the file's name is said: {', '.join(unnamed)}"
 
 
 def write_names(settings: Settings, deck: str) -> None:

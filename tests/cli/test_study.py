@@ -295,6 +295,19 @@ def test_the_cards_are_listed_drawn_and_named(tmp_path: Path, recollect: Recolle
     assert (again.code, "names.csv is there already" in again.err) == (2, True)
 
 
+def test_cards_without_a_name_are_told_once_for_each_language(tmp_path: Path, recollect: Recollect) -> None:
+    shutil.copytree(ASSETS / "cards" / "animals", tmp_path / "cards")
+    (tmp_path / "cards" / "owl.svg").rename(tmp_path / "cards" / "IMG_1.svg")
+    (tmp_path / "cards" / "cat.svg").rename(tmp_path / "cards" / "IMG_2.svg")
+    study = tmp_path / "study.toml"
+    study.write_text("languages = ['en', 'it']\n[game]\ndeck = './cards'\n", "utf-8")
+    said = recollect("study", "cards", study)
+    assert (said.code, [line for line in said.out.splitlines() if line.startswith("caution: no name")]) == (
+        0,
+        [f"caution: no name in '{code}', so that the file's name is said: IMG_1, IMG_2" for code in ("en", "it")],
+    )
+
+
 # What is printed
 
 
