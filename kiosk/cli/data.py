@@ -165,14 +165,14 @@ def verify_command(data: Path, *, as_json: bool) -> None:
 
 def _table(flaws: list[Flaw]) -> Table:
     table = Table(box=None)
-    for heading in ("what should be", "where", "what is"):
+    for heading in ("check", "where", "result"):
         table.add_column(heading)
     for check in Verification:
         found = [flaw for flaw in flaws if flaw.check is check]
         for number, flaw in enumerate(found):
             table.add_row("" if number else check.value, flaw.where, flaw.what)
         if not found:
-            table.add_row(check.value, "", "it is so")
+            table.add_row(check.value, "", "ok")
     return table
 
 

@@ -112,9 +112,9 @@ def progress_bar(what: str, total: int | None = None, *, hidden: bool) -> Iterat
 @click.command()
 @json_option
 def set_pin_command(*, as_json: bool) -> None:
-    """Choose the experimenter's PIN and print its line.
+    """Choose the experimenter's PIN and print the lines that set it.
 
-    The line belongs in the study file.
+    They belong in the study file.
     """
     import secrets
 

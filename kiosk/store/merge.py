@@ -214,7 +214,7 @@ def _check_apart(parts: Sequence[_Part], out: Path) -> None:
     if person is not None:
         (site, _, number), one, other = person
         raise UserInputError(
-            f"participant {participant_name(site, number)} stands in {one.folder} and in {other.folder}; nothing was "
+            f"participant {participant_name(site, number)} is in {one.folder} and in {other.folder}; nothing was "
             f"merged. {_way_out(parts, out) if code is None else copied}"
         )
     if code is not None:
@@ -243,8 +243,8 @@ def _check_no_older_copies(parts: Sequence[_Part]) -> None:
         for back in sessions_of(other.connection, withdrawn_hashes(part.connection, part.folder)):
             (row,) = other.rows("participant", "WHERE session = ?", back)
             raise UserInputError(
-                f"participant {participant_name(row['site'], row['number'])} withdrew in {part.folder}, but still "
-                f"stands in {other.folder}; nothing was merged. Delete them there as well: recollect withdraw "
+                f"participant {participant_name(row['site'], row['number'])} withdrew in {part.folder}, but is "
+                f"still in {other.folder}; nothing was merged. Delete them there as well: recollect withdraw "
                 f"--session {back} --data {other.folder}"
             )
 

@@ -31,27 +31,27 @@ from kiosk.store.tombstones import copies_with, list_flaws, sessions_of, withdra
 
 
 class Verification(Enum):
-    """What is looked at; the sentence says what is true when nothing is found."""
+    """What is checked, as a sentence that is true if nothing is wrong."""
 
     FILE = "the file is whole"
-    REFERENCES = "whatever points somewhere points at something"
-    SCHEMA = "tables and triggers are as they were made"
-    RECEIPTS = "every step of the schema has its receipt"
-    SOURCES = "what sessions followed is as it was kept"
-    CHAIN = "every event is as it was recorded"
+    REFERENCES = "every reference leads to a row"
+    SCHEMA = "tables and triggers are unchanged"
+    RECEIPTS = "every step of the schema is noted"
+    SOURCES = "settings, policies and texts of the sessions are unchanged"
+    CHAIN = "every event is unchanged"
     HEADS = "no session, and no end of one, is missing"
     NUMBERING = "events are numbered from 1 without a gap"
-    TIME = "time never goes back within a session"
+    TIME = "time never runs backwards within a session"
     READABLE = "every event can be read"
-    PARTICIPANTS = "numbers and visits are sound, no two alike, and everybody has a code"
-    ALLOCATION = "lists meet their quotas, and sessions their slots"
-    WITHDRAWN = "nothing is left of what was withdrawn"
+    PARTICIPANTS = "every participant has a number and a code, and no two have the same"
+    ALLOCATION = "allocation lists match the quotas, and sessions the lists"
+    WITHDRAWN = "nothing is left of withdrawn sessions"
     FINISHED = "every withdrawal is finished"
-    LIST = "the list of people who withdrew lies beside it, whole"
-    COPIES = "no copy in the folder holds anybody who withdrew"
-    ELSEWHERE = "no copy elsewhere that can be reached holds people who withdrew"
-    SUMMARIES = "summaries and counts say what the events say"
-    VOICE = "one voice speaks each language of a study"
+    LIST = "the list of people who withdrew is there and complete"
+    COPIES = "no copy in the folder holds people who withdrew"
+    ELSEWHERE = "no copy within reach elsewhere holds people who withdrew"
+    SUMMARIES = "summaries and counts match the events"
+    VOICE = "each language of a study has one voice"
 
 
 @dataclass(frozen=True)

@@ -240,4 +240,4 @@ def test_what_clashes_is_refused(day: Path, tmp_path: Path) -> None:
     a_day(tmp_path / "other", PEOPLE, "MI", seed=2)
     result = run("merge", day, tmp_path / "other", "--out", tmp_path / "all")
     assert isinstance(result.exception, UserInputError)
-    assert "participant MI-1 stands in" in str(result.exception)
+    assert "participant MI-1 is in" in str(result.exception)

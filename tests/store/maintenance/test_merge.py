@@ -180,7 +180,7 @@ def test_folders_of_one_site_are_merged_if_nobody_clashes(
     with Recorder(tmp_path / "people", "MI") as recorder:
         recorder.begin(replace(provenance, seed=7, kind=SessionKind.STUDY), COMPLETED)
     assert merge([rehearsals, tmp_path / "people"], out) == 3
-    with pytest.raises(UserInputError, match=r"participant MI-1 stands in .*milan and in .*people"):
+    with pytest.raises(UserInputError, match=r"participant MI-1 is in .*milan and in .*people"):
         merge([milan, tmp_path / "people"], tmp_path / "other")
 
 
@@ -194,7 +194,7 @@ def test_an_empty_folder_may_be_there_already(milan: Path, girona: Path, out: Pa
 
 def test_a_participant_who_stands_in_two_folders_is_refused(milan: Path, out: Path, tmp_path: Path) -> None:
     shutil.copytree(milan, tmp_path / "copy")
-    with pytest.raises(UserInputError, match=r"participant MI-\d stands in .*milan and in .*copy; nothing was merged"):
+    with pytest.raises(UserInputError, match=r"participant MI-\d is in .*milan and in .*copy; nothing was merged"):
         merge([milan, tmp_path / "copy"], out)
     assert not out.exists()
 
@@ -205,7 +205,7 @@ def test_a_participant_who_withdrew_in_one_of_them_is_refused_as_well(
     """Otherwise a copy from before the withdrawal would bring them back."""
     with Recorder(tmp_path / "before", "MI") as recorder:
         recorder.begin(replace(provenance, kind=SessionKind.STUDY, seed=999), COMPLETED)
-    with pytest.raises(UserInputError, match=r"participant MI-1 stands in"):
+    with pytest.raises(UserInputError, match=r"participant MI-1 is in"):
         merge([tmp_path / "before", milan], out)
 
 
@@ -329,7 +329,7 @@ def test_kiosks_without_a_site_get_one_in_the_merged_folder(nameless: list[Path]
 
 def test_the_refusal_names_a_command_that_merges_them(nameless: list[Path], out: Path) -> None:
     with pytest.raises(
-        UserInputError, match=r"participant \d stands in .*hall and in .*library; nothing was merged"
+        UserInputError, match=r"participant \d is in .*hall and in .*library; nothing was merged"
     ) as refusal:
         merge(nameless, out)
     program, *arguments = shlex.split(str(refusal.value).rpartition(": ")[2])
@@ -340,7 +340,7 @@ def test_the_refusal_names_a_command_that_merges_them(nameless: list[Path], out:
 
 
 def test_the_refusal_names_only_those_anew_who_clash(nameless: list[Path], girona: Path, out: Path) -> None:
-    with pytest.raises(UserInputError, match="stands in") as refusal:
+    with pytest.raises(UserInputError, match=r"participant \S+ is in ") as refusal:
         merge([girona, *nameless], out)
     assert "girona=" not in str(refusal.value)
     done = CliRunner().invoke(recollect, shlex.split(str(refusal.value).rpartition(": ")[2])[1:])
@@ -376,7 +376,7 @@ def test_a_copy_from_before_a_withdrawal_does_not_bring_anybody_back(
     shutil.copytree(kiosk, copy)
     withdraw(kiosk, person.code)
     for sites in ([], [(copy, "COPY")]):
-        with pytest.raises(UserInputError, match=r"participant .*1 withdrew in .*kiosk, but still stands in .*copy"):
+        with pytest.raises(UserInputError, match=r"participant .*1 withdrew in .*kiosk, but is still in .*copy"):
             merge([copy, kiosk], out, sites=sites)
     assert not out.exists()
 

@@ -325,7 +325,7 @@ def test_an_older_copy_that_is_put_back_brings_nobody_back(data: Path, code: str
 
 def test_a_merge_refuses_a_folder_that_somebody_is_back_in(data: Path, code: str, tmp_path: Path) -> None:
     put_back(data, code)
-    with pytest.raises(UserInputError, match=r"participant 2 withdrew in .*data, but still stands in .*data"):
+    with pytest.raises(UserInputError, match=r"participant 2 withdrew in .*data, but is still in .*data"):
         merge([data], tmp_path / "all")
 
 
