@@ -38,7 +38,7 @@ class Action(Enum):
 
 
 class ActionEffect(Enum):
-    """What comes of a action."""
+    """What comes of an action."""
 
     NOW = "now"
     NEXT_SESSION = "next session"
@@ -77,7 +77,7 @@ class DeviationReason(Enum):
 
 @dataclass(frozen=True)
 class Permission:
-    """What holds for a action in a stage."""
+    """What holds for an action in a stage."""
 
     effect: ActionEffect
     asks: Authorisation = Authorisation.NOTHING

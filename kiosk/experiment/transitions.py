@@ -1,7 +1,7 @@
 """The course of a session as one table: stage x event -> what becomes of the stage.
 
-Which stages there are, and in which order, is the study's; ``Course`` knows what comes after each. World events that a
-stage does not list are refused. Session events that it does not list change no stage.
+The study says which stages there are, and in which order; ``StageOrder`` knows what comes after each. World events that
+a stage does not list are refused. Session events that it does not list change no stage.
 """
 
 from __future__ import annotations
@@ -218,7 +218,7 @@ class StageOrder:
 
 
 def check_expected(stage: Stage, event: WorldEvent) -> None:
-    """Raise UnexpectedEvent if the stage has no place for this event."""
+    """Raise InvalidTransition if the stage has no place for this event."""
     if type(event) not in TABLE[stage]:
         raise InvalidTransition(stage, event)
 

@@ -68,7 +68,7 @@ Land = Callable[[Job], None]
 
 
 class AsyncRobotAdapter:
-    """One robot, found or lost; lost until ``look_for`` has found it."""
+    """One robot, found or lost; lost until ``connect`` has found it."""
 
     def __init__(self, robot: RobotDriver, reports: RobotListener, land: Land, look_every_ms: int) -> None:
         """While it speaks, see every ``look_every_ms`` whether it still answers."""

@@ -86,7 +86,7 @@ class Utterance:
         return self._cut
 
     def cancel(self) -> None:
-        """Wait for it no longer; the call that waits raises RobotFailed."""
+        """Wait for it no longer; the call that waits raises RobotError."""
         with self._lock:
             self._cut = True
             if self._end is not None:

@@ -224,7 +224,7 @@ class HttpClient:
         parameters: Mapping[str, str] | None = None,
         body: Mapping[str, Any] | None = None,
     ) -> tuple[int, bytes]:
-        """Send one request and return the code and content of its answer; raises RobotFailed."""
+        """Send one request and return the code and content of its answer; raises RobotError."""
         host = f"[{self._address}]" if ":" in self._address else self._address
         url = f"http://{host}:{self._port}{path}"
         headers = {"Connection": "close", "Accept": "application/json"}
@@ -315,7 +315,7 @@ class Furhat(InspectableRobot):
         self._voices: tuple[RobotVoice, ...] = ()
 
     def connect(self) -> Capabilities:
-        """Look for it, see what it offers, and give it a voice of the language; raises RobotFailed."""
+        """Look for it, see what it offers, and give it a voice of the language; raises RobotError."""
         self.resolve()
         self.health_check()
         self._fetches = True
@@ -326,7 +326,7 @@ class Furhat(InspectableRobot):
         return Capabilities(self._voices, self._gestures, voice)
 
     def set_language(self, language: str) -> None:
-        """Give it a voice of another language; raises RobotFailed if it has none, and keeps to the one before."""
+        """Give it a voice of another language; raises RobotError if it has none, and keeps to the one before."""
         if language == self._language:
             return
         if self._voices:
@@ -335,11 +335,11 @@ class Furhat(InspectableRobot):
         self._language = language
 
     def resolve(self) -> None:
-        """Look its name up, for all calls that follow; raises RobotFailed."""
+        """Look its name up, for all calls that follow; raises RobotError."""
         self._http.resolve()
 
     def health_check(self) -> None:
-        """See whether its server is up; raises RobotFailed."""
+        """See whether its server is up; raises RobotError."""
         code, content = self._request("GET", "/furhat")
         if code != OK:
             raise RobotError(FailureKind.ERROR, "GET /furhat", f"code {code}")
@@ -347,21 +347,21 @@ class Furhat(InspectableRobot):
             raise RobotError(FailureKind.GARBAGE, "GET /furhat", _shown(content))
 
     def gestures(self) -> tuple[str, ...]:
-        """Return the names of the gestures that it offers; raises RobotFailed."""
+        """Return the names of the gestures that it offers; raises RobotError."""
         return tuple(str(entry["name"]) for entry in self._list("/furhat/gestures"))
 
     def voices(self) -> tuple[RobotVoice, ...]:
-        """Return the voices that it offers; raises RobotFailed."""
+        """Return the voices that it offers; raises RobotError."""
         return tuple(
             RobotVoice(str(entry["name"]), str(entry.get("language") or "")) for entry in self._list("/furhat/voices")
         )
 
     def users(self) -> int:
-        """How many people it sees; raises RobotFailed."""
+        """How many people it sees; raises RobotError."""
         return len(self._list("/furhat/users", named=False))
 
     def speak_with(self, voice: RobotVoice) -> None:
-        """Give it a voice; it forgets that when it starts again. Raises RobotFailed."""
+        """Give it a voice; it forgets that when it starts again. Raises RobotError."""
         self._ask("/furhat/voice", {"name": voice.name})
 
     def _speak(self, voice: RobotVoice, language: str) -> None:
@@ -371,7 +371,7 @@ class Furhat(InspectableRobot):
             self.on_other_voice(why)
 
     def say(self, saying: Utterance) -> None:
-        """Say a sentence to its end, in place of any other; raises RobotFailed.
+        """Say a sentence to its end, in place of any other; raises RobotError.
 
         With a source of clips the robot plays one. If it cannot fetch that, it says the text with its own voice, and so
         all that follow until it is connected anew.
@@ -393,7 +393,7 @@ class Furhat(InspectableRobot):
     def _not_played(self, saying: Utterance, clip: SpokenClip) -> str:
         """Have the robot fetch a clip and play it; returns why it did not, and nothing if it did.
 
-        Raises RobotFailed for a robot that breaks off or is gone.
+        Raises RobotError for a robot that breaks off or is gone.
         """
         settings = self._settings
         call = Call(max(settings.speech_time(saying.text), clip.duration_ms + _CLIP_GRACE_MS) / MS_PER_SECOND)
@@ -418,11 +418,11 @@ class Furhat(InspectableRobot):
             return f"the clip cannot be served: {error.strerror or error}"
 
     def stop_speech(self) -> None:
-        """Ask it to be silent; it may say yes and speak on. Raises RobotFailed."""
+        """Ask it to be silent; it may say yes and speak on. Raises RobotError."""
         self._ask("/furhat/say/stop", {})
 
     def express(self, mood: Mood) -> None:
-        """Make the gesture for a mood, if there is one; raises RobotFailed."""
+        """Make the gesture for a mood, if there is one; raises RobotError."""
         if not self._settings.gestures or mood is Mood.IDLE:
             return
         if mood is Mood.CONFUSED:
@@ -433,7 +433,7 @@ class Furhat(InspectableRobot):
             self._ask("/furhat/gesture", {"name": name, "blocking": "false"})
 
     def look_at(self, place: BoardPoint | None) -> None:
-        """Look at a place on the board, or at the closest person; raises RobotFailed.
+        """Look at a place on the board, or at the closest person; raises RobotError.
 
         It may answer that no person is there to look at: that is no failure.
         """

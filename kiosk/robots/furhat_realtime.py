@@ -53,7 +53,7 @@ class _Waiter:
         self._answers.put(message)
 
     def next(self, until: float, doing: str) -> Mapping[str, Any]:
-        """Return the next answer, before ``until`` on the monotonic clock; raises RobotFailed."""
+        """Return the next answer, before ``until`` on the monotonic clock; raises RobotError."""
         try:
             message = self._answers.get(timeout=max(0.0, until - monotonic()))
         except Empty:
@@ -88,7 +88,7 @@ class FurhatRealtime(RobotDriver):
         self._lock = Lock()
 
     def connect(self) -> Capabilities:
-        """Open the connection anew, sign in if there is a key, and set the voice; raises RobotFailed."""
+        """Open the connection anew, sign in if there is a key, and set the voice; raises RobotError."""
         self.close()
         self._open()
         if self._settings.key:
@@ -98,7 +98,7 @@ class FurhatRealtime(RobotDriver):
         return Capabilities((), (), None)
 
     def set_language(self, language: str) -> None:
-        """Have it choose a voice of another language; raises RobotFailed."""
+        """Have it choose a voice of another language; raises RobotError."""
         if language == self._language:
             return
         self._language = language
@@ -107,11 +107,11 @@ class FurhatRealtime(RobotDriver):
             self._see_to_voice()
 
     def health_check(self) -> None:
-        """See whether it answers; raises RobotFailed."""
+        """See whether it answers; raises RobotError."""
         self._current_voice()
 
     def say(self, saying: Utterance) -> None:
-        """Say a sentence to its end, in place of any other; raises RobotFailed."""
+        """Say a sentence to its end, in place of any other; raises RobotError."""
         until = monotonic() + self._settings.speech_time(saying.text) / MS_PER_SECOND
         with self._waiting("response.speak") as waiter:
             saying.on_cancel(lambda: waiter.hand(_CUT))
@@ -123,16 +123,16 @@ class FurhatRealtime(RobotDriver):
             raise RobotError(FailureKind.DECLINED, "request.speak.text", json.dumps(dict(message)))
 
     def stop_speech(self) -> None:
-        """Ask it to be silent; raises RobotFailed."""
+        """Ask it to be silent; raises RobotError."""
         self._send("request.speak.stop")
 
     def express(self, mood: Mood) -> None:
-        """Make the gesture for a mood, if there is one; raises RobotFailed."""
+        """Make the gesture for a mood, if there is one; raises RobotError."""
         if self._settings.gestures and WISHES[mood]:
             self._send("request.gesture.start", name=WISHES[mood][0], intensity=1.0, monitor=False)
 
     def look_at(self, place: BoardPoint | None) -> None:
-        """Look at a place on the board, or at the closest person; raises RobotFailed."""
+        """Look at a place on the board, or at the closest person; raises RobotError."""
         if not self._settings.gaze:
             return
         if place is None:

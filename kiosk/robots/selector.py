@@ -30,7 +30,7 @@ class EmbodimentSelector:
     """The embodiments of one kiosk, and which of them helps now; what they report passes through here."""
 
     def __init__(self, listener: SpeechListener, after: After, settings: RobotSettings) -> None:
-        """Without a body nothing is said; ``take`` brings the avatar, ``take_robot`` the robot."""
+        """Say nothing until there is a body: ``set_avatar`` brings the avatar, ``attach_robot`` the robot."""
         self.on_own_voice: Callable[[str], None] = lambda _: None
         """Called with the reason why the robot does not play the clips that it was to play."""
         self.on_other_voice: Callable[[str], None] = lambda _: None

@@ -220,7 +220,7 @@ class AllocationLists:
     """
 
     def __init__(self, connection: sqlite3.Connection, site: str, *, kind: SessionKind) -> None:
-        """Open the lists; callers of ``fix`` have a transaction open."""
+        """Open the lists; callers of ``create`` have a transaction open."""
         self._connection = connection
         self._whose = {"site": site, "kind": int(kind)}
         self._listed: _Listed | None = None
@@ -295,7 +295,7 @@ class AllocationLists:
         return listed if listed == stored.slots else self._store(quotas, block, stored.seed, listed)
 
     def check(self, quotas: Mapping[Condition, int], block: int, seed: int | None) -> None:
-        """Raise UserInputError where ``fix`` would for another list than the stored one; nothing is stored."""
+        """Raise UserInputError where ``create`` would, for another list than the stored one; nothing is stored."""
         stored = self.latest()
         if stored is not None:
             _continued(stored, quotas, block, seed)

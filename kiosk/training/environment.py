@@ -55,7 +55,7 @@ class AssistanceEnv(gym.Env[int, int]):
     Before every flip of the player the agent chooses how much to help; then the player flips one card, following the
     hint or not. The player is part of the environment, as is the choice of the card that a hint points to.
 
-    ## ActionSpec space
+    ## Action space
     ``Discrete(4)``: 0 no help, 1 point to the column, 2 to the row, 3 to the card. Any type of whole number will do.
     Everything else raises ``gymnasium.error.InvalidAction``, whether or not the gate is open; so do booleans.
 

@@ -237,7 +237,7 @@ class LearnerState(NamedTuple):
 
 @compiled_rule
 def epsilon_at(lesson: Ints, episode: int) -> float:
-    """Return the chance of a random action; see ``Epsilon``."""
+    """Return the chance of a random action; see ``Exploration``."""
     if lesson[EPSILON] == LINEAR_EPSILON:
         return 1.0 - (1.0 - FLOOR) * episode / lesson[EPISODES]
     falling = 1.0 / (1.0 + DECAY * episode)
@@ -246,7 +246,7 @@ def epsilon_at(lesson: Ints, episode: int) -> float:
 
 @compiled_rule
 def alpha_at(lesson: LearnerState, episode: int, visits: int) -> float:
-    """Return the learning rate; see ``Alpha``."""
+    """Return the learning rate; see ``LearningRate``."""
     if lesson.plan[ALPHA] == VISITS:
         return lesson.rates[min(visits, len(lesson.rates) - 1)]
     if lesson.plan[ALPHA] == LINEAR_ALPHA:

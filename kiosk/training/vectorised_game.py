@@ -248,7 +248,7 @@ def state(game: Ints) -> int:
 
 @compiled_rule
 def is_open(game: Ints, gate: Ints) -> bool:
-    """Whether the gate lets the table be asked; as ``Gate.verdict``."""
+    """Whether the gate lets the table be asked; as ``Gate.decide``."""
     if game[FLIPS] < gate[OPENING]:
         return False
     if game[FIRST] != NOWHERE:

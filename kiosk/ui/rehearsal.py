@@ -136,7 +136,7 @@ class Rehearsal:
         app.on_fault = self._fail
 
     def run(self) -> None:
-        """Go through the session to its end; raises Stuck if it has none."""
+        """Go through the session to its end; raises UiTimeout if it has none."""
         if self._shots is not None:
             self._shots.take("attract")
         self._think()

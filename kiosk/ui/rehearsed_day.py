@@ -79,7 +79,7 @@ def draw_visitors(sessions: int, seed: int, languages: Sequence[str]) -> Iterato
 
 
 def rehearse_day(app: App, seed: int, visitors: Sequence[BehaviourProfile], data: Path) -> Iterator[ProcessUsage]:
-    """Let them come one after another; after each, what the process holds. Raises Stuck if one cannot go on.
+    """Let them come one after another; after each, what the process holds. Raises UiTimeout if one cannot go on.
 
     No visitor comes any more once the system asked the kiosk to end.
     """

@@ -74,7 +74,7 @@ class Desk(Booth):
         return [(kind, json.loads(body)) for kind, body in rows]
 
     def shortcut(self, action: Action) -> None:
-        """Press the shortcut of a action."""
+        """Press the shortcut of an action."""
         sequence = QKeySequence(getattr(self.app.assigner.study.settings.shortcuts, action.value))
         pressed = sequence[0]  # type: ignore[index]  # the stubs do not know that it can
         QTest.keyClick(self.app.window, pressed.key(), pressed.keyboardModifiers())

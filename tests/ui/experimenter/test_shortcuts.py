@@ -42,7 +42,7 @@ def say_something(assigner: Desk) -> None:
 
 
 def done(assigner: Desk, action: Action, witness: Witness) -> bool:
-    """Whether what a action does at once, or puts off, is to be seen."""
+    """Whether what an action does at once, or puts off, is to be seen."""
     app, visited = assigner.app, witness.stage not in EMPTY
     seen: dict[Action, Callable[[], bool]] = {
         Action.PANEL: lambda: assigner.panel.is_open and witness.saw(happened.PauseRequested) is visited,
@@ -60,7 +60,7 @@ def done(assigner: Desk, action: Action, witness: Witness) -> bool:
 
 
 def undo(assigner: Desk) -> None:
-    """Have everything as it was before a action, apart from the stage."""
+    """Have everything as it was before an action, apart from the stage."""
     app = assigner.app
     app.experimenter.panel.close()
     app.runner.dispatch(happened.PauseEnded(at_ms=app.runner.now_ms()))
