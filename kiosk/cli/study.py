@@ -30,8 +30,10 @@ from kiosk.store.connecting import atomic_directory
 from kiosk.study.checks import expected_minutes, study_warnings
 from kiosk.study.csv_import import Heading, read_items, write_questionnaire
 from kiosk.study.decks import NAMES, names_in, names_table
+from kiosk.study.findings import located
 from kiosk.study.forming import card_forms
-from kiosk.study.loader import located, read_study, unclear_names
+from kiosk.study.loader import read_study
+from kiosk.study.names import unclear_names
 from kiosk.study.new import STUDY_FILE, NewStudy, default_languages, find_template, templates
 from kiosk.study.package import is_package, open_study
 from kiosk.ui.checks import CannotDraw, found_in_pictures

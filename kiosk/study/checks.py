@@ -24,8 +24,8 @@ from kiosk.game import CARDS_IN_A_PAIR
 from kiosk.preflight import CheckResult
 from kiosk.study.decks import NAMES
 from kiosk.study.forming import card_forms
-from kiosk.study.loader import MODEL_LANGUAGE, WORDING
 from kiosk.study.package import shipped_differences
+from kiosk.study.texts import MODEL_LANGUAGE, WORDING
 from kiosk.study.translations import is_untranslated
 from kiosk.units import MS_PER_MINUTE
 

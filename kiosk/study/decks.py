@@ -10,7 +10,7 @@ from pathlib import Path
 
 from kiosk import UserInputError
 from kiosk.assistance.wording import CARD, Catalogue, card_message
-from kiosk.config import PICTURES, code_of, files_in, pictures_in, read_text
+from kiosk.config import PICTURES, Game, Practice, Settings, code_of, files_in, pictures_in, read_text
 from kiosk.files import open_to_read
 from kiosk.language_codes import is_right
 from kiosk.lazy_dataclass import dataclass
@@ -33,6 +33,13 @@ NAMES = "names.csv"
 _FORM = re.compile(r"[a-z][a-z0-9_-]*")
 _KEYS = ("card", "file", "picture")
 """What the first column of the table may be called."""
+
+
+def boards(settings: Settings) -> Iterator[tuple[str, Game | Practice]]:
+    """Yield the boards that visitors see, by their section of the study file."""
+    yield "game", settings.game
+    if "practice" in settings.stages:
+        yield "practice", settings.practice
 
 
 def deck_faults(folder: Path) -> Iterator[str]:

@@ -16,7 +16,8 @@ from kiosk.assistance.wording import Written
 from kiosk.config import ASSETS, Settings, code_of, read_text
 from kiosk.experiment.session_config import SessionConfig, StudyConfig
 from kiosk.files import write_file
-from kiosk.study.loader import OWN_TEXTS, read_study
+from kiosk.study.loader import read_study
+from kiosk.study.texts import OWN_TEXTS
 from kiosk.study.translations import (
     entry_patterns,
     pattern_text,

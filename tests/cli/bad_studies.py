@@ -10,7 +10,7 @@ from kiosk.config import ASSETS, STAGES, Settings
 from kiosk.experiment.condition import CONDITIONS
 from kiosk.experiment.labels import MISSING, NUMBER, TRUTH
 from kiosk.experiment.questionnaire import KINDS
-from kiosk.study.loader import ONE_NAME
+from kiosk.study.names import ONE_NAME
 
 KNOWN = {
     "{assets}": str(ASSETS),

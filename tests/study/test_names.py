@@ -6,7 +6,7 @@ import pytest
 
 from kiosk.config import ASSETS
 from kiosk.experiment.questionnaire import Questionnaire
-from kiosk.study.loader import ONE_NAME, unclear_cards, unclear_names
+from kiosk.study.names import ONE_NAME, unclear_cards, unclear_names
 
 
 @pytest.mark.parametrize(
