@@ -37,13 +37,13 @@ LOST = b"lost"
 """What the broker publishes in a booth's place when the connection breaks: the last will."""
 
 KEEPALIVE_S = 5
-"""So often the connection is tried; after half as long again without an answer the broker gives it up."""
+"""How often the connection is tried; after half as long again without an answer the broker gives it up."""
 
 BACKOFF_S = (1, 30)
 """The first and the longest pause before the broker is tried again; each is twice the last."""
 
 QUEUED = 8
-"""So many messages may wait for a slow network; a status that finds no room is left out, for the next comes soon."""
+"""How many messages may wait for a slow network; a status that finds no room is left out, as the next comes soon."""
 
 CLOSING_S = 1.0
 

@@ -287,7 +287,7 @@ def guarded(limits: Limits = Limits(), environment: Mapping[str, str] = os.envir
 
 
 def _beat(writer: int) -> None:
-    # A pipe that is full, or without a reader is no reason to stop.
+    # A pipe that is full, or has no reader, is no reason to stop.
     with suppress(OSError):
         os.write(writer, bytes([BEAT]))
 

@@ -1,1 +1,1 @@
-"""The front door: the command line and the wiring, nothing else. Only here do rooms that never meet come together."""
+"""The command line, and the wiring of packages that do not import each other."""

@@ -32,7 +32,7 @@ class HintGuide:
     assistant: Assistant
     sentences: Sentences
     hesitation: HesitationRule | None = None
-    """When a player who hesitates gets help; None: never."""
+    """When a player who hesitates gets help; None if they never do."""
 
 
 @dataclass(frozen=True)
@@ -128,7 +128,7 @@ class GameStage(StageHandler):
 
     @property
     def helped(self) -> bool:
-        """Whether anybody helps."""
+        """Whether there is an assistant."""
         return self._guide is not None
 
     def enter(self, outcome: OutcomeBuilder) -> None:
@@ -163,7 +163,7 @@ class GameStage(StageHandler):
                 self._go_on_after(timer, outcome)
 
     def show_again(self, outcome: OutcomeBuilder) -> None:
-        """Give the hint that stands in the language of now; a sentence that is being said starts anew."""
+        """Give the hint that stands in the present language; a sentence that is being said starts anew."""
         given, sentences = self._given, self._sentences
         if given is None or sentences is None or given.cue is HintCue.GAZE:
             return

@@ -77,7 +77,7 @@ class SpeechWriter:
         self._last: tuple[str, dict[str, str | int]] | None = None
 
     def say_again(self, outcome: OutcomeBuilder) -> None:
-        """Say what was said last, in the language of now."""
+        """Say what was said last, in the present language."""
         if self._last is not None:
             message, variables = self._last
             self.say(message, outcome, **variables)
@@ -100,7 +100,7 @@ class ConsentStage(StageHandler):
     """One box for each purpose, none ticked; agreeing counts once every required one is."""
 
     def __init__(self, information: Information, language: str, *, back: bool = False) -> None:
-        """Ask for the consent of this sheet; who came ``back`` has to agree that their visits are linked."""
+        """Ask for the consent of this sheet; a visitor who came ``back`` has to agree that visits are linked."""
         self._information = information
         self._language = language
         self._back = back
@@ -234,7 +234,7 @@ class IntroductionStage(StageHandler):
         self._speaker.say(speech, outcome, cards=2 * self._pairs, pairs=self._pairs)
 
     def show_again(self, outcome: OutcomeBuilder) -> None:
-        """Greet in the language of now."""
+        """Greet in the present language."""
         self._speaker.say_again(outcome)
 
 
@@ -255,7 +255,7 @@ class ResultStage(StageHandler):
         self._speaker.say(_remark(measures), outcome, moves=measures.moves)
 
     def show_again(self, outcome: OutcomeBuilder) -> None:
-        """Show the figures and remark on them in the language of now."""
+        """Show the figures and remark on them in the present language."""
         self.enter(outcome)
 
 
@@ -275,7 +275,7 @@ class ThanksStage(StageHandler):
         self._speaker.say("thanks-speech", outcome)
 
     def show_again(self, outcome: OutcomeBuilder) -> None:
-        """Thank in the language of now."""
+        """Thank in the present language."""
         self._speaker.say_again(outcome)
 
     def react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:

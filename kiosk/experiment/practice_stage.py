@@ -91,7 +91,7 @@ class PracticeStage(GameStage):
             self._speaker.say("practice-speech", outcome)
 
     def show_again(self, outcome: OutcomeBuilder) -> None:
-        """Say the hint that stands, or what there is to do, in the language of now."""
+        """Say the hint that stands, or what there is to do, in the present language."""
         if self._given is not None:
             super().show_again(outcome)
         elif self.game.flips == 0:

@@ -36,7 +36,7 @@ _TOKEN = re.compile(
 _DEEPEST = 50
 """How deep parentheses may stand in one another."""
 _MOST_TRIALS = 50_000
-"""So many combinations of answers are tried to find one that shows an item; with more, it is taken to be shown."""
+"""How many combinations of answers are tried to find one that shows an item; with more, it is taken to be shown."""
 
 
 @dataclass(frozen=True)

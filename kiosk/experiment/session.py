@@ -255,7 +255,7 @@ def _game(plan: SessionConfig, seed: int, wording: Wording, numbers: Iterator[in
 
 
 def _comments(plan: SessionConfig, seed: int, wording: Wording) -> MoveComments | None:
-    """Return who comments on moves, if anybody does.
+    """Return what comments on moves, if the condition has comments.
 
     Chance has a stream of its own, so that no hint is another one for a comment.
     """

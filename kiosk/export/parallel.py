@@ -31,7 +31,7 @@ WORTH_IT = 300
 _AT_ONCE = 10
 """Sessions that are given to a process together."""
 _AHEAD = 3
-"""So many of those wait for each process."""
+"""How many of those wait for each process."""
 
 
 @dataclass(frozen=True)

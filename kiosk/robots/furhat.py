@@ -250,7 +250,7 @@ def _content(answer: requests.Response) -> bytes:
 
 
 def _fault(error: BaseException, call: Call) -> FailureKind:
-    """Return what kind of failure this is; who waits longest is slow, whatever the library calls it."""
+    """Return the kind of a failure; one that took up the whole time is slow, whatever it is called."""
     causes = tuple(_causes(error))
     if call.was_cancelled:
         return FailureKind.CUT

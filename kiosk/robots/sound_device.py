@@ -87,7 +87,7 @@ class Player(Protocol):
         ...
 
     def set_volume(self, volume: float) -> None:
-        """Play so loud, 0 to 1."""
+        """Set the volume, from 0 to 1."""
         ...
 
     def close(self) -> None:
@@ -159,7 +159,7 @@ class StreamPlayer:
             self._fade_out()
 
     def set_volume(self, volume: float) -> None:
-        """Play so loud, 0 to 1."""
+        """Set the volume, from 0 to 1."""
         self._volume = volume
 
     def tend(self) -> None:
@@ -254,7 +254,7 @@ class StreamPlayer:
         self._tried_at = time.monotonic()
 
     def _ask(self) -> Generator[bytes, int, None]:
-        """Yield the stream's own thread asks here for samples; it is sent how many."""
+        """Yield samples for the thread of the stream, which sends how many it wants."""
         wanted = yield b""
         while True:
             wanted = yield self._next(wanted)
@@ -401,7 +401,7 @@ class CommandPlayer:
         self._notice(plays=code == 0)
 
     def set_volume(self, volume: float) -> None:
-        """Play so loud, 0 to 1, from the next sound on."""
+        """Set the volume, from 0 to 1, from the next sound on."""
         self._volume = volume
 
     def close(self) -> None:

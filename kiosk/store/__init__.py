@@ -1,1 +1,1 @@
-"""SQLite, append only: what happened is written once and never changed. No other room knows of a database."""
+"""SQLite, append only: what happened is written once and never changed. No other package knows of a database."""

@@ -33,7 +33,7 @@ _ANCHORED = (
 """What the first hash stands for, without what a merge changes: the number, the site and the list of a session."""
 
 _GAPS = 100
-"""So many missing sessions in a row are named one by one; a changed number could make them millions."""
+"""How many missing sessions in a row are named one by one; a changed number could make them millions."""
 
 _CHECK_DIGITS = 8
 _LINE = 10 + 1 + 10 + 1 + 64 + 1 + _CHECK_DIGITS + 1

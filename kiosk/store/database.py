@@ -467,7 +467,7 @@ def has_sessions(folder: Path) -> bool:
 
 
 def open_as_it_is(folder: Path) -> Connection:
-    """Return the same, but an older one is opened as it was written."""
+    """Open a database for reading as ``open_for_reading`` does, but leave an older one as it was written."""
     path = folder / FILE
     if not path.is_file():
         raise UserInputError(f"there is no database in {folder}")

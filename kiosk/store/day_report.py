@@ -21,7 +21,7 @@ from kiosk.units import MS_PER_SECOND
 EARLY = frozenset({Status.ABANDONED, Status.STOPPED, Status.WITHDRAWN, Status.INTERRUPTED})
 """How a session ends that does not come to its end."""
 IN_A_ROW = 3
-"""So many early ends, one after another, are no chance."""
+"""How many early ends, one after another, are not taken for chance."""
 SLOW_MS = 800
 """A sentence that begins later than this is one that visitors wait for."""
 UNHEARD_SHARE = 0.05

@@ -107,7 +107,7 @@ def studies_in(folders: Sequence[Path]) -> list[StudyCount]:
 
 _Shared = TypeVar("_Shared", bound=Hashable)
 _Who = tuple[str, int, int]
-"""A person of all folders: the site, whether they are kind, and their number."""
+"""A person of all folders: the site, the kind of their sessions, and their number."""
 
 
 @dataclass

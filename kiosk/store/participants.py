@@ -182,7 +182,7 @@ def _next_number(connection: sqlite3.Connection, site: str, kind: int) -> int:
 
 
 SEED_BITS = 63
-"""Who has seen many slots of a list cannot find the rest by trying seeds."""
+"""So many that a person who has seen many slots of a list cannot find the rest by trying seeds."""
 
 
 @dataclass(frozen=True)

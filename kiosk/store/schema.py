@@ -50,7 +50,7 @@ def refuse_other_schema(connection: sqlite3.Connection, folder: Path, kinds: fro
 
 
 def open_checked(folder: Path) -> Connection:
-    """Do the same as ``open_for_reading``; other tables, or views, raise UserInputError as well."""
+    """Open a database for reading; raise UserInputError also if its tables or views are not ours."""
     connection = open_for_reading(folder)
     try:
         refuse_other_schema(connection, folder, READ_FROM)

@@ -189,7 +189,7 @@ _OF_EVENTS = (Verification.CHAIN, Verification.NUMBERING, Verification.TIME, Ver
 """The checks that look at every event: all of them share one reading, which takes longer than any check."""
 
 _REMEMBERED = 100_000
-"""So many different events are remembered as readable; most events of a study say the same as an earlier one."""
+"""How many different events are remembered as readable; most events of a study say the same as an earlier one."""
 
 
 def _events(connection: sqlite3.Connection) -> Mapping[Verification, Iterable[tuple[str, str]]]:
@@ -424,7 +424,7 @@ def _voice(connection: sqlite3.Connection) -> _Found:
 
 
 _SHORT = 12
-"""So many digits of a hash tell two packs apart."""
+"""How many digits of a hash are shown to tell two packs apart."""
 
 _WHATEVER_THE_SCHEMA = {Verification.FILE, Verification.SCHEMA}
 

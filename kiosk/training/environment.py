@@ -1,6 +1,6 @@
 """The same decision process as a Gymnasium environment, so that others can train their own agents on it.
 
-It plays by the rules of this room's kernel and is the only module that needs ``gymnasium`` (the optional extra "gym").
+It plays by the rules of ``vectorised_game`` and is the only module that needs ``gymnasium`` (the optional extra "gym").
 """
 
 from __future__ import annotations

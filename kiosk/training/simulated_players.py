@@ -356,7 +356,7 @@ def lucky(game: Ints, player: Ints) -> bool:
 
 @compiled_rule
 def text_match(game: Ints, player: Ints, odds: Floats) -> bool:
-    """Whether the second card of the paper's text's player is a match."""
+    """Whether the second card of a ``TextPlayer`` is a match."""
     left = PAIRS - game[PAIRS_FOUND]
     since = game[FLIPS] if player[TOTAL] == 1 else (game[FLIPS] - game[LAST_MATCH]) // 2 + 1
     chance = odds[KEPT + min(since, LONGEST - 1)] * since / left
@@ -398,7 +398,7 @@ def list_half(game: Ints) -> int:
 
 @compiled_rule
 def guess(game: Ints, player: Ints) -> int:
-    """Return the card that the player tries who knows nothing better."""
+    """Return the card that a player tries for want of a better one."""
     if player[KIND] == MEMORY:
         return pick(game, list_not_recalled(game))
     if player[KIND] == TEXT and game[FIRST] == NOWHERE:

@@ -1,4 +1,4 @@
-"""The only room with windows: it shows what the study commands and reports what the visitor does.
+"""The only package with windows: it shows what a session asks for, and reports what the visitor does.
 
-Rules live elsewhere. Everything Qt is in here, and nothing of Qt is anywhere else.
+It has no rules of the study, and no other package uses Qt.
 """

@@ -70,7 +70,7 @@ def _handles(process: psutil.Process) -> int:
 
 
 def draw_visitors(sessions: int, seed: int, languages: Sequence[str]) -> Iterator[BehaviourProfile]:
-    """So many visitors of every manner, as a seed draws them."""
+    """Return a number of visitors of every manner, drawn by a seed."""
     chance = Random(f"{seed}/crowd")
     leaving = [Stage(name) for name in STAGES]
     for _ in range(sessions):

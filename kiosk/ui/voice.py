@@ -60,7 +60,7 @@ class Voice(QObject):
         """Speak this language from the next sentence on."""
 
     def set_volume(self, volume: float) -> None:
-        """Speak so loud, 0 to 1, from the next sentence on."""
+        """Set the volume, from 0 to 1, from the next sentence on."""
 
     def say(self, number: int, sentence: str) -> None:
         """Begin to say a sentence, in place of any other."""
@@ -165,7 +165,7 @@ class EngineVoice(Voice):
             self._start_anew()
 
     def set_volume(self, volume: float) -> None:
-        """Speak and sound so loud at once; a process that is started later begins with it."""
+        """Set the volume at once; a process that is started later begins with it."""
         self._settings = self._settings.model_copy(update={"volume": volume})
         self._send({"volume": volume})
 

@@ -130,7 +130,7 @@ class AuditLog:
 
 
 class ActionController:
-    """The experimenter's hand."""
+    """Does the experimenter's actions: notes, choices, pauses and the end of sessions."""
 
     def __init__(  # noqa: PLR0913, PLR0917 - whom it has to do with
         self,
@@ -315,7 +315,7 @@ class ActionController:
             self.tell("console-done")
 
     def _set_volume(self, choice: str, _reason: str) -> None:
-        """Be so loud from now on; without a choice one step louder, and after the loudest the softest."""
+        """Set the volume; without a choice one step louder, and after the loudest the softest."""
         louder = next((volume for volume in LOUDNESS if volume > self.volume), LOUDNESS[0])
         volume = float(choice) if choice else louder
         if self._written(AuditEvent.VOLUME_CHANGED, {"volume": volume}):

@@ -281,7 +281,7 @@ _SHORTCUT = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifie
 
 
 class InputCapture(QObject):
-    """Stands before the window as long as the experimenter is at something, and not a moment longer."""
+    """Filters the input of the window while the card asks for something or the panel is open."""
 
     def __init__(
         self, window: QWindow, asking: AuthorisationFlow, stirred: Callable[[], None], parent: QObject

@@ -16,7 +16,7 @@ from kiosk.units import MS_PER_HOUR, MS_PER_MINUTE, MS_PER_SECOND
 
 SHORT_SHA = 8
 DRIFT_MS = 60_000
-"""So far may the wall's clock go from one that cannot be set, or stand before what was last written."""
+"""How far the wall's clock may differ from one that cannot be set, or stand before what was last written."""
 
 MIB_PER_GIB = 1024
 
@@ -208,7 +208,7 @@ def _database(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
 
 
 def ago(minutes: int, catalogue: Catalogue) -> str:
-    """So many minutes, in words of the size that matters."""
+    """Return a number of minutes in words: in minutes, hours or days."""
     if minutes < _MINUTES_PER_HOUR:
         return catalogue.text("console-minutes", minutes=minutes)
     if minutes < _MINUTES_PER_DAY:

@@ -67,7 +67,7 @@ class Shut(Protocol):
 
 
 class MaintenanceScheduler:
-    """The booth's own care, beat by beat."""
+    """Copies the database when a copy is due, and watches the disk space."""
 
     def __init__(  # noqa: PLR0913, PLR0917 - whom it has to do with
         self,

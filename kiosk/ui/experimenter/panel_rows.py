@@ -29,7 +29,7 @@ NameCondition = Callable[[Condition | None], str]
 def session_rows(seen: DashboardSnapshot, catalogue: Catalogue, name: NameCondition, *, played: bool) -> Row:
     """Return every list of the panel that follows from the records.
 
-    During a session the conditions of all sessions are hidden: from those before, the one of now could be guessed.
+    During a session the conditions of all sessions are hidden: from those before, the present one could be guessed.
     """
     translate = catalogue.text
     visits = {why.value: number for why, number in seen.counts.visits.items()}
@@ -48,7 +48,7 @@ def session_rows(seen: DashboardSnapshot, catalogue: Catalogue, name: NameCondit
 def today_rows(
     day: DayCounts, counts: EnrolmentCounts, stage: tuple[str, int], now: datetime, catalogue: Catalogue
 ) -> Row:
-    """Return the clock and the day in numbers; ``stage`` is the one of now, and its age in ms."""
+    """Return the clock and the day in numbers; ``stage`` is the present one, and its age in ms."""
     translate = catalogue.text
     done = sum(cell.fates[Disposition.CONSUMED] for cell in counts.cells.values())
     target = sum(cell.quota for cell in counts.cells.values())
