@@ -21,7 +21,8 @@ from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import ACTIONS, ActionSpec, QTable
 from kiosk.experiment.condition import Condition, target_rule
 from kiosk.export.columns import CODEBOOK_VERSION
-from kiosk.export.layouts import file_of, new_folder
+from kiosk.export.layouts import file_of
+from kiosk.export.new_files import new_folder
 from kiosk.training.simulated_players import SimulatedPlayer
 from kiosk.training.simulation import RecordedGame, record_games
 from kiosk.training.vectorised_game import CARDS, PAIRS

@@ -17,7 +17,7 @@ from kiosk.assistance.policy import QTable
 from kiosk.cli.options import data_option, json_option, progress_bar
 from kiosk.cli.terminal import tell_line
 from kiosk.experiment.condition import Condition
-from kiosk.export.layouts import new_folder, write_text
+from kiosk.export.new_files import new_folder, write_text
 from kiosk.files import check_writable, write_file
 from kiosk.store.plans import freeze_plan, frozen_plans, games_per_condition, record_look
 from kiosk.training.simulated_players import PopulationPlayer

@@ -19,9 +19,10 @@ from rich.table import Table
 from kiosk import StorageError, UserInputError
 from kiosk.cli.options import database_data_option, json_option, progress_bar, sessions_data_option
 from kiosk.cli.terminal import confirm, console, counted, one_line, tell_caution, tell_line
+from kiosk.export.bids import Bids
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset as write
-from kiosk.export.layouts import Bids, PsychDs
+from kiosk.export.layouts import PsychDs
 from kiosk.store import drives
 from kiosk.store import maintenance as copies
 from kiosk.store import merge as merging

@@ -11,7 +11,8 @@ from kiosk import UserInputError
 from kiosk.experiment.outcomes import SessionKind
 from kiosk.export.columns import ExportOption
 from kiosk.export.flow import FlowQuantity, ParticipantFlow
-from kiosk.export.layouts import DatasetContents, Layout, PsychDs, new_folder
+from kiosk.export.layouts import DatasetContents, Layout, PsychDs
+from kiosk.export.new_files import new_folder
 from kiosk.export.parallel import WORTH_IT, ExportTask, written_elsewhere
 from kiosk.export.records import StudyMaterials
 from kiosk.export.tables import all_tables

@@ -18,7 +18,7 @@ from kiosk import StorageError
 from kiosk.experiment.outcomes import SessionKind
 from kiosk.export.columns import ExportOption
 from kiosk.export.flow import FlowQuantity, ParticipantFlow
-from kiosk.export.layouts import csv_texts
+from kiosk.export.new_files import csv_texts
 from kiosk.export.records import StudyMaterials
 from kiosk.export.tables import DatasetTables, all_tables
 from kiosk.garbage import rare_collections

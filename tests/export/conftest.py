@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from kiosk.export.bids import Bids
 from kiosk.export.dataset import export_dataset
-from kiosk.export.layouts import Bids, PsychDs
+from kiosk.export.layouts import PsychDs
 from tests.export.visitors import store, visitors
 from tests.store.conftest import folder, played, provenance, writer
 

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from kiosk.experiment.outcomes import SessionKind
+from kiosk.export.bids import Bids
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
-from kiosk.export.layouts import Bids
 from tests.export.conftest import PARTICIPANTS, rows_of
 from tests.export.visitors import store, visitor
 

@@ -20,6 +20,7 @@ from hypothesis import strategies as some
 
 from kiosk.experiment.items import Integer, ShortText
 from kiosk.experiment.outcomes import Stage
+from kiosk.export.bids import Bids
 from kiosk.export.columns import (
     SEPARATES_OBJECTS,
     Column,
@@ -33,7 +34,8 @@ from kiosk.export.columns import (
     unmarked,
 )
 from kiosk.export.dataset import export_dataset
-from kiosk.export.layouts import Bids, Layout, PsychDs, csv_lines
+from kiosk.export.layouts import Layout, PsychDs
+from kiosk.export.new_files import csv_lines
 from tests.experiment.driver import Driver
 from tests.export.conftest import rows_of
 from tests.export.visitors import answer_all, store, study_plan

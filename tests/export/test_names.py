@@ -16,9 +16,11 @@ from kiosk.experiment.items import Integer
 from kiosk.experiment.labels import fold_name, is_reserved
 from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.questionnaire import Questionnaire
+from kiosk.export.bids import Bids, distinct_files
 from kiosk.export.columns import ExportOption, distinct
 from kiosk.export.dataset import export_dataset
-from kiosk.export.layouts import Bids, CsvFile, Layout, PsychDs, TsvFile, distinct_files, write_json, write_text
+from kiosk.export.layouts import Layout, PsychDs
+from kiosk.export.new_files import CsvFile, TsvFile, write_json, write_text
 from kiosk.export.records import StudyMaterials
 from kiosk.export.tables import all_tables, renamed_items
 from kiosk.store.merge import merge

@@ -11,8 +11,9 @@ import pytest
 from kiosk.experiment.event_records import from_record, to_record
 from kiosk.experiment.events import ResponseGiven
 from kiosk.experiment.items import NOT_APPLICABLE, Response
+from kiosk.export.bids import Bids
 from kiosk.export.dataset import export_dataset
-from kiosk.export.layouts import Bids, PsychDs
+from kiosk.export.layouts import PsychDs
 from tests.export.conftest import rows_of
 from tests.export.visitors import answered, store
 from tests.samples import likert, questionnaire

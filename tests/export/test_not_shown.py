@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from kiosk.export.bids import Bids
 from kiosk.export.dataset import export_dataset
-from kiosk.export.layouts import Bids, PsychDs
+from kiosk.export.layouts import PsychDs
 from tests.export.conftest import rows_of
 from tests.export.visitors import answered, store
 from tests.samples import likert, questionnaire

@@ -19,9 +19,10 @@ from kiosk.config import Allocation, ConsentConfig, Privacy, RobotConfig
 from kiosk.experiment.events import ResponseGiven
 from kiosk.experiment.items import ShortText
 from kiosk.experiment.outcomes import Stage
+from kiosk.export.bids import Bids
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
-from kiosk.export.layouts import Bids, Layout, PsychDs
+from kiosk.export.layouts import Layout, PsychDs
 from kiosk.export.records import TELLS_THE_ORDER, AgeBands, StudyMaterials
 from kiosk.store.database import FILE
 from kiosk.store.session_records import SHUFFLING_FILE

@@ -12,7 +12,7 @@ from hypothesis import example, given
 from hypothesis import strategies as some
 
 from kiosk.export.columns import format_cell
-from kiosk.export.layouts import NOTHING, CsvFile, TsvFile
+from kiosk.export.new_files import NOTHING, CsvFile, TsvFile
 
 HALVES = some.characters(categories=["Cs"])
 ANYTHING = some.text(some.one_of(some.characters(exclude_categories=["Cs"]), some.sampled_from('",;\r\n\t\\ \u2028\0')))

@@ -14,9 +14,10 @@ from kiosk.cli.main import recollect
 from kiosk.experiment.items import Answer, Multiple, ShortText, Single
 from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.questionnaire import Questionnaire
+from kiosk.export.bids import Bids
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
-from kiosk.export.layouts import Bids, PsychDs
+from kiosk.export.layouts import PsychDs
 from tests.experiment.driver import Driver
 from tests.export.conftest import rows_of
 from tests.export.visitors import answer_all, store, study_plan

@@ -10,8 +10,9 @@ import pytest
 from kiosk.config import ReturningConfig
 from kiosk.experiment.outcomes import AllocationSource, SessionKind
 from kiosk.experiment.session_config import SessionConfig
+from kiosk.export.bids import Bids
 from kiosk.export.dataset import export_dataset
-from kiosk.export.layouts import Bids, PsychDs
+from kiosk.export.layouts import PsychDs
 from kiosk.store.participants import ReturningVisitor
 from kiosk.store.recorder import Provenance, Recorder
 from tests.experiment.driver import Driver, with_memory

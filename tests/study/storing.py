@@ -8,9 +8,10 @@ from pathlib import Path
 
 from kiosk.experiment.outcomes import SessionKind
 from kiosk.experiment.session_config import SessionConfig
+from kiosk.export.bids import Bids
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
-from kiosk.export.layouts import Bids, PsychDs
+from kiosk.export.layouts import PsychDs
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.verify import verify
