@@ -17,26 +17,27 @@ FocusScope {
     property string code: ""
     // The lines of a drawing above the title, on a square of 24; empty for none.
     property string sign: ""
-    // Where the middle of the card is.
-    property point middle: Qt.point(width / 2, height / 2)
-    // Where the face of the one who asks begins, below the card, which then is what it says; 0 where there is no face.
-    property real speaker: 0
-    // Where the middle of that face is, where it is beside the card; 0 where it is not.
-    property real beside: 0
-    property bool atLeft: false
-    // The edge of that one's place, which the card reaches.
-    property real bound: 0
+    // Where the face of the one who asks is, at which the card then stands; null where there is none.
+    property WindowLayout windowLayout: null
+    // Where that face begins below the card, which then is what it says; 0 where there is none.
+    readonly property real speaker: windowLayout?.faceBelow ?? 0
+    // Where its middle is beside the card; 0 where it is not.
+    readonly property real beside: windowLayout?.faceBeside ?? 0
+    readonly property bool atLeft: windowLayout?.boardOnRight ?? false
+    // The edge of its place, which the card reaches.
+    readonly property real bound: windowLayout?.helperEdge ?? 0
+    // Where the middle of the card is at no face.
+    property point middle: Qt.point(width / 2, (windowLayout?.room ?? height) / 2)
     readonly property bool large: speaker > 0 || beside > 0 && Theme.textSize <= 1.15
     // Whether there is so much height above a face that words and drawing can be larger.
     readonly property bool roomy: speaker > 0.65 * height && Theme.textSize <= 1
     readonly property real tail: speaker > 0 ? 34 * Theme.unit : 0
-    // How high it is at least, and how wide where a face is beside it.
+    // How high it is at least, and how wide where a face is beside it, or where none is.
     property real least: 0
-    property real broadest: 1100 * Theme.unit
-    // And where it is at no face.
-    property real broad: 900 * Theme.unit
+    readonly property real broadest: 1214 * Theme.unit
+    readonly property real broad: 900 * Theme.unit
     // How much of what is below is covered; a card that covers most of it hides the remains as well.
-    property real veil: 0.94
+    readonly property real veil: speaker > 0 || beside > 0 ? 1 : 0.94
     // What lies there face down instead of a drawing; empty for none.
     property url cardBack: ""
     property url cardShadow: ""

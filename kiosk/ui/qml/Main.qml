@@ -113,14 +113,11 @@ Window {
         active: root.prepares
         onShownChanged: if (shown) active = true
     }
-    // The same for what a session needs at any time: where nothing is made between frames, it comes with the session.
-    component Later: Loader {
-        required property bool shown
-        readonly property bool wanted: shown || root.preparesParts || root.kiosk.inSession
-        asynchronous: root.prepares && !shown
-        visible: shown && status === Loader.Ready
-        active: false
-        onWantedChanged: if (wanted) active = true
+    // Whether the parts of a session are made by now.
+    readonly property bool needsParts: preparesParts || kiosk.inSession
+    component Part: PartLoader {
+        needed: root.needsParts
+        prepares: root.prepares
     }
     Item {
         id: stage
@@ -185,7 +182,7 @@ Window {
         }
         // Keys of a number stand beside this page, and what stands beside a loader is not touched: it is as large as the
         // window.
-        Later {
+        Part {
             id: formPage
             shown: root.kiosk.screen === "form"
             property bool keysBeside: false
@@ -270,7 +267,7 @@ Window {
                 cardShadow: root.cardShadow
             }
         }
-        Later {
+        Part {
             id: boardPage
             shown: root.kiosk.screen === "game" || root.kiosk.screen === "practice"
             // As a page, it keeps its size while it is not seen: its cards are many.
@@ -342,21 +339,15 @@ Window {
         onPointChanged: helper.follow(point.position)
     }
     // Under the assistant, who rests meanwhile.
-    Later {
+    Part {
         anchors.fill: parent
         shown: root.kiosk.paused || root.kiosk.screen === "pause"
         sourceComponent: CalmCard {
+            windowLayout: layout
             // Beside the assistant, or above it.
             middle: layout.whole ? Qt.point(root.width / 2, root.room / 2)
                   : layout.wide ? layout.pageMiddle : Qt.point(root.width / 2, 0.36 * root.room)
-            speaker: layout.faceBelow
-            beside: layout.faceBeside
-            atLeft: root.boardOnRight
-            bound: layout.helperEdge
             least: (roomy ? 480 : large ? 740 : 500) * Theme.unit
-            // As the two questions that come at any time.
-            broadest: 1214 * Theme.unit
-            veil: speaker > 0 || beside > 0 ? 1 : 0.94
             cardBack: root.cardBack
             cardShadow: root.cardShadow
             title: root.words["pause-title"]
@@ -437,113 +428,16 @@ Window {
         anchors { left: parent.left; right: parent.right; top: parent.top }
         height: root.room
     }
-    Later {
+    Overlays {
         anchors.fill: parent
-        shown: root.kiosk.asksStillThere
-        focus: visible
-        enabled: root.kiosk.takesInput
-        sourceComponent: CalmCard {
-            focus: true
-            sign: "M1.5 12 C6 3.5 18 3.5 22.5 12 C18 20.5 6 20.5 1.5 12 Z M12 8.5 A3.5 3.5 0 0 1 12 15.5 A3.5 3.5 0 0 1 12 8.5"
-            title: root.words["still-there-title"]
-            least: roomy ? Math.min(1180 * Theme.unit, 0.83 * speaker) : speaker > 0 && boardPage.visible ? 730 * Theme.unit : 0
-            bound: layout.helperEdge
-            broadest: 1214 * Theme.unit
-            veil: layout.asking ? 1 : 0.94
-            titleSize: roomy ? Theme.size(88) : beside > 0 && Theme.textSize <= 1 ? Theme.size(76) : Theme.figure
-            middle: layout.asking && layout.wide ? layout.pageMiddle : Qt.point(root.width / 2, root.room / 2)
-            speaker: layout.faceBelow
-            beside: layout.faceBeside
-            atLeft: root.boardOnRight
-            line: root.words["still-there-line"]
-            lineSize: Theme.size(roomy ? 42 : large ? 40 : 36)
-            // A replay has a time of its own.
-            lasts: root.replay === null ? root.kiosk.answerMs : 0
-            second: root.words["still-there-second"]
-            choices: [{ name: "still-here", words: root.words["still-there-yes"] }]
-            onChosen: root.kiosk.confirm()
-        }
-    }
-    Later {
-        anchors.fill: parent
-        shown: root.kiosk.asks === "stop" && !root.kiosk.paused && !root.kiosk.waits
-        focus: visible
-        enabled: root.kiosk.takesInput
-        sourceComponent: CalmCard {
-            focus: true
-            middle: layout.asking && layout.wide ? layout.pageMiddle : Qt.point(root.width / 2, root.room / 2)
-            bound: layout.helperEdge
-            broadest: 1214 * Theme.unit
-            veil: layout.asking ? 1 : 0.94
-            least: (roomy ? 1130 : speaker > 0 && boardPage.visible ? 900 : 0) * Theme.unit
-            speaker: layout.faceBelow
-            beside: layout.faceBeside
-            atLeft: root.boardOnRight
-            // A door, and the way out of it.
-            sign: "M13 4 H5 V20 H13 M10 12 H20 M16 8 L20 12 L16 16"
-            title: root.words["stop-title"]
-            line: root.kiosk.stopLine
-            titleSize: roomy ? Theme.size(80) : Theme.figure
-            lineSize: roomy ? Theme.size(44) : large ? Theme.size(36) : Theme.body
-            code: root.kiosk.stopCode
-            choices: [{ name: "stop-no", words: root.words["stop-no"] }, { name: "stop-yes", words: root.words["stop-yes"], quiet: true }]
-            onChosen: name => name === "stop-yes" ? root.kiosk.stop() : root.kiosk.ask("")
-            Keys.onEscapePressed: root.kiosk.ask("")
-        }
-    }
-    Later {
-        anchors.fill: parent
-        shown: root.kiosk.asks === "language" && !root.kiosk.paused && !root.kiosk.waits
-        focus: visible
-        enabled: root.kiosk.takesInput
-        sourceComponent: CalmCard {
-            focus: true
-            sign: "M12 3 A9 9 0 0 1 12 21 A9 9 0 0 1 12 3 M3.5 9.5 H20.5 M3.5 14.5 H20.5 M12 3 C7.5 8 7.5 16 12 21 M12 3 C16.5 8 16.5 16 12 21"
-            title: root.words["control-language"]
-            choices: root.attract.ways.filter(way => root.kiosk.languages.includes(way.language))
-                .map(way => ({ name: `language-${way.language}`, words: way.name, quiet: way.language !== root.kiosk.language }))
-            onChosen: name => root.kiosk.selectLanguage(name.slice("language-".length))
-            Keys.onEscapePressed: root.kiosk.ask("")
-        }
-    }
-    Loader {
-        anchors.fill: parent
-        active: root.kiosk.asks === "code"
-        visible: active && !root.kiosk.paused && !root.kiosk.waits
-        focus: visible
-        enabled: root.kiosk.takesInput
-        sourceComponent: CodeCard {
-            focus: true
-            returning: root.returning
-            words: root.words
-            onWentAway: {
-                root.kiosk.ask("")
-                root.returning.clear()
-            }
-        }
-    }
-    Later {
-        anchors.fill: parent
-        shown: ["welcome", "unknown"].includes(root.kiosk.asks) && !root.kiosk.paused && !root.kiosk.waits
-        focus: visible
-        enabled: root.kiosk.takesInput
-        sourceComponent: CalmCard {
-            focus: true
-            title: root.words[root.kiosk.asks === "unknown" ? "return-as-new" : "return-welcome"]
-            choices: [{ name: "return-on", words: root.words["about-continue"] }]
-            onChosen: root.kiosk.ask("")
-            Keys.onEscapePressed: root.kiosk.ask("")
-        }
-    }
-    Later {
-        anchors.fill: parent
-        shown: root.kiosk.waits && root.kiosk.screen !== "pause"
-        sourceComponent: CalmCard {
-            objectName: "wait"
-            sign: "M6 4 H18 M6 20 H18 M7 4 C7 9 12 10 12 12 C12 14 7 15 7 20 M17 4 C17 9 12 10 12 12 C12 14 17 15 17 20"
-            title: root.words["wait-title"]
-            line: root.words["wait-line"]
-        }
+        kiosk: root.kiosk
+        attract: root.attract
+        returning: root.returning
+        words: root.words
+        windowLayout: layout
+        needed: root.needsParts
+        prepares: root.prepares
+        timed: root.replay === null
     }
     PanelLayer {
         // Over the assistant too, who comes forward for a question.
