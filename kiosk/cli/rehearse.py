@@ -36,11 +36,11 @@ from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.experiment.projections import count_speech, waiting_shares
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.experiment.session_state import SessionState
+from kiosk.guard import guarded
 from kiosk.robots.registry import check_robot
 from kiosk.robots.simulated import FlakyRobot
 from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study
-from kiosk.supervisor import guarded
 from kiosk.training.simulated_players import PopulationPlayer
 from kiosk.ui.app import App
 from kiosk.ui.rehearsal import CoversRehearsal, Rehearsal

@@ -16,8 +16,8 @@ from kiosk.experiment.events import Event
 from kiosk.experiment.memory_replay import has_board
 from kiosk.experiment.replay import ReplayStep, first_difference, replay_events
 from kiosk.experiment.session_config import SessionConfig
+from kiosk.guard import guarded
 from kiosk.store.queries import open_repository
-from kiosk.supervisor import guarded
 from kiosk.ui.film import check_film, write_film
 from kiosk.ui.replay import Replay
 from kiosk.ui.replay_controls import FASTEST, SLOWEST

@@ -17,7 +17,8 @@ from kiosk.cli.composition import check_pin, read_settings
 from kiosk.cli.options import data_option, robot_host_option, robot_port_option, site_option, study_option
 from kiosk.cli.terminal import counted, tell_line
 from kiosk.garbage import no_collections
-from kiosk.supervisor import REFUSED, Supervisor, SupervisorEvent, SupervisorEventKind, Timeouts, guarded
+from kiosk.guard import guarded
+from kiosk.supervisor import REFUSED, Supervisor, SupervisorEvent, SupervisorEventKind, Timeouts
 from kiosk.ui.qt_platform import obstacle
 
 # What opens the kiosk is loaded once the first picture is on the screen.

@@ -8,7 +8,7 @@ import signal
 import sys
 from collections.abc import Callable
 
-from kiosk.supervisor import Limits, guarded
+from kiosk.guard import Limits, guarded
 
 
 def burn() -> None:

@@ -9,7 +9,7 @@ import sys
 
 import pytest
 
-from kiosk.supervisor import Limits, _Watch, guarded
+from kiosk.guard import Limits, _Watch, guarded
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="it cannot fork")
 

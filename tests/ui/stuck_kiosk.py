@@ -13,7 +13,7 @@ from unittest.mock import patch
 from PySide6.QtCore import QTimer
 
 from kiosk.cli.main import main
-from kiosk.supervisor import Limits, guarded
+from kiosk.guard import Limits, guarded
 
 QUICK = Limits(silence=1, stuck=0.5)
 LARGER_THAN_A_MUTEX = 256
