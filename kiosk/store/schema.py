@@ -10,7 +10,8 @@ from pathlib import Path
 
 from kiosk import UserInputError
 from kiosk.store.connecting import TOO_LONG, Connection
-from kiosk.store.database import MIGRATIONS, open_as_it_is, open_for_reading, unreadable
+from kiosk.store.database import open_as_it_is, open_for_reading, unreadable
+from kiosk.store.migrations import MIGRATIONS
 
 READ_FROM = frozenset({"table", "view"})
 """The kinds of a schema's parts that rows are read from; any other part changes nothing for a reader."""

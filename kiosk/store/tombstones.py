@@ -15,7 +15,8 @@ from pathlib import Path
 from kiosk import UserInputError
 from kiosk.files import read_bytes, replace_file
 from kiosk.store.connecting import PRIVATE, give_to_owner_of_folder, make_private
-from kiosk.store.database import BACKUPS, SCHEMA, open_copy
+from kiosk.store.database import BACKUPS, open_copy
+from kiosk.store.migrations import SCHEMA
 
 FILE = "recollect.withdrawn"
 _DIGITS, _CHECK_DIGITS = 64, 8

@@ -21,8 +21,9 @@ from kiosk.store.chain import FILE as HEADS_FILE
 from kiosk.store.chain import chained_events, lost_ends, missing_since_written, unreadable_lines
 from kiosk.store.connecting import reason
 from kiosk.store.copies import Elsewhere, KnownCopy, look_elsewhere
-from kiosk.store.database import MIGRATIONS, open_as_it_is
+from kiosk.store.database import open_as_it_is
 from kiosk.store.maintenance import Progress
+from kiosk.store.migrations import MIGRATIONS
 from kiosk.store.participants import quotas_from_json, slots_from_json
 from kiosk.store.schema import NONE_OF_OURS, refuse_other_schema, schema_flaws
 from kiosk.store.summaries import wrong_summaries, wrong_tally

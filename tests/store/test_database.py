@@ -19,15 +19,13 @@ from kiosk.store import database
 from kiosk.store.database import (
     APPLICATION_ID,
     FILE,
-    MIGRATIONS,
-    SCHEMA,
-    Migration,
     in_use,
     lock_folder,
     open_for_reading,
     open_for_writing,
     wait_until_free,
 )
+from kiosk.store.migrations import MIGRATIONS, SCHEMA, Migration
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Recorder
 

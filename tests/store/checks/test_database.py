@@ -14,8 +14,9 @@ from kiosk.config import Allocation
 from kiosk.experiment.outcomes import SessionKind
 from kiosk.preflight import Severity
 from kiosk.store.checks import OLD, SLACK, allocation_check, backup_check, clock_check, database_check, sessions_check
-from kiosk.store.database import FILE, SCHEMA, in_use
+from kiosk.store.database import FILE, in_use
 from kiosk.store.maintenance import FOLDER, back_up
+from kiosk.store.migrations import SCHEMA
 from kiosk.store.recorder import Provenance, Recorder
 from tests.store.visitors import BEGUN, COMPLETED, FOUR, a_day, seated
 

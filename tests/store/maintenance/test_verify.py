@@ -16,8 +16,9 @@ from kiosk.experiment.events import SpeechStarted
 from kiosk.experiment.outcomes import SessionKind
 from kiosk.store.chain import FILE as HEADS
 from kiosk.store.chain import read_heads
-from kiosk.store.database import FILE, SCHEMA
+from kiosk.store.database import FILE
 from kiosk.store.maintenance import back_up
+from kiosk.store.migrations import SCHEMA
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.verify import Verification, verify
 from tests.store.visitors import BEGUN, COMPLETED, a_day
