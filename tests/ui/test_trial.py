@@ -15,10 +15,11 @@ from kiosk.experiment.outcomes import SessionKind
 from kiosk.experiment.session_config import kind_of
 from kiosk.store.queries import open_repository
 from kiosk.ui.rehearsal import Rehearsal
-from kiosk.ui.simulated_visitor import find_item
+from kiosk.ui.simulated_visitor import find_item, lay_out
 from tests.samples import CATALOGUES
 from tests.ui.experimenter.conftest import LINE
 from tests.ui.headless import HALF, headless, short
+from tests.ui.looking import painted, texts
 
 TINY = {"game": {"rows": 1, "columns": 2}, "stages": ("introduction", "game", "result")}
 
@@ -34,6 +35,23 @@ def test_the_first_screen_says_that_it_is_a_trial_with_the_shortcut_that_leaves_
         assert line is not None
         assert line.property("text") == CATALOGUES[language].text("attract-trial", shortcut="Ctrl+Shift+F9")
         assert "Ctrl+Shift+F9" in line.property("text")
+
+
+@pytest.mark.parametrize("scale", [1.0, 1.3])
+@pytest.mark.parametrize(("width", "height"), [(960, 540), (683, 384), (540, 960)])
+def test_that_it_is_a_trial_stands_apart_from_the_names_of_the_languages(
+    width: int, height: int, scale: float, tmp_path: Path, qtbot: QtBot
+) -> None:
+    with headless(short(languages=["en", "it"]), tmp_path, kind=SessionKind.TRIAL, mode=HALF) as app:
+        window = app.window
+        window.setProperty("textSize", scale)
+        window.resize(width, height)
+        qtbot.waitUntil(lambda: window.contentItem().width() == width)
+        lay_out(window)
+        shown = {str(text.property("text")): text for text in texts(window.contentItem())}
+        line = find_item(window.contentItem(), "trial")
+        assert line is not None
+        assert painted(line).top() - painted(shown["English"]).bottom() >= 0.9 * painted(line).height()
 
 
 def test_a_kiosk_that_no_shortcut_leaves_names_none(tmp_path: Path, qtbot: QtBot) -> None:

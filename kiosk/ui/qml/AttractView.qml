@@ -17,12 +17,14 @@ FocusScope {
 
     // The lab stands above everything, if it says who it is.
     readonly property real head: lab.visible ? lab.height + Theme.gap : 0
+    // Below everything it says whether this is a trial.
+    readonly property real foot: trial.visible ? trial.height + Theme.gap : 0
     readonly property int columns: Math.ceil(attract.layout.length / 2)
     readonly property real between: (ample ? 2 : 1.5) * Theme.gap
     readonly property int rows: Math.ceil(attract.layout.length / columns)
     // The words take what they need; the cards have the rest.
     readonly property real cardSize: Math.max(60 * Theme.unit,
-        Math.min(widest, (height - head - words.height - 5 * Theme.gap) / (1.12 * rows)))
+        Math.min(widest, (height - head - foot - words.height - 5 * Theme.gap) / (1.12 * rows)))
     readonly property bool upright: width < height
     // An upright page has room for larger words, and more of it between them.
     readonly property bool ample: upright && Theme.textSize <= 1.15
@@ -112,6 +114,7 @@ FocusScope {
         }
     }
     Line {
+        id: trial
         objectName: "trial"
         anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: 0.5 * Theme.gap }
         visible: text !== ""
@@ -179,7 +182,7 @@ FocusScope {
     }
     Column {
         id: words
-        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: (view.height - view.head - height - cards.height - view.between) / 2 }
+        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: view.foot + (view.height - view.head - view.foot - height - cards.height - view.between) / 2 }
         spacing: (view.ample ? 1.5 : 1) * Theme.gap
 
         Line {
