@@ -41,6 +41,14 @@ def test_a_word_that_would_be_alone_gets_company(draw: Draw) -> None:
     assert even.property("contentWidth") < usual.property("contentWidth")
 
 
+def test_each_paragraph_counts(draw: Draw) -> None:
+    whole = float(draw("PlainText", SENTENCE, 5_000).property("contentWidth"))
+    both, width = f"{SENTENCE}\\nOne", whole - 10
+    usual, even = draw("PlainText", both, width), draw("Balanced", both, width)
+    assert usual.property("lineCount") == even.property("lineCount") == 3
+    assert even.property("contentWidth") < usual.property("contentWidth")
+
+
 @pytest.mark.parametrize("text", [SENTENCE, "One", "One two", "Indescribably incomprehensible"])
 def test_a_text_that_fits_in_its_place_is_left_as_it_is(draw: Draw, text: str) -> None:
     assert draw("Balanced", text, 5_000).property("slack") == 0

@@ -179,10 +179,35 @@ def test_the_helper_says_the_last_line_where_it_stands_beside_the_page(booth: Bo
     assert said() == {False}
 
 
+def test_the_helper_says_the_last_two_of_five_points_as_two_paragraphs_of_whole_sentences(booth: Booth) -> None:
+    paragraphs = (*(f"Point {number}\nThis is short." for number in range(4)), "It is no test\nYou can ask us.")
+    page = Page(
+        title="What we study", paragraphs=paragraphs, signs=("compare", "seen", "chance", "questions", "helper")
+    )
+
+    def said() -> dict[str, bool]:
+        booth.settle()
+        found = [item for item in items(booth.app.window.contentItem()) if "no test" in str(item.property("text"))]
+        return {str(item.property("text")): lies_in(item, "Bubble") for item in found}
+
+    booth.app.screens.debrief.show(page)
+    booth.app.screens.kiosk.show("debrief")
+    assert said() == {"Point 3. This is short.\nIt is no test. You can ask us.": True}
+    booth.app.screens.debrief.show(page.model_copy(update={"paragraphs": paragraphs[1:], "signs": page.signs[1:]}))
+    assert said() == {"It is no test. You can ask us.": True}
+
+
 def test_two_points_stand_on_cards_between_plain_lines_and_the_helper_says_the_fifth_in_whole_sentences(
     booth: Booth, qtbot: QtBot
 ) -> None:
-    paragraphs = (*(f"Point {number}\nThis is short." for number in range(4)), "It is no test\nYou can ask us.")
+    # The last two are too long for the helper to say both.
+    points = (
+        *(f"Point {number}\nThis is short." for number in range(3)),
+        "Point 3\nIt could have changed your game and all your answers.",
+    )
+    test = "It is no test of what you remember, nor of how fast you turn all the cards over"
+    last = f"{test}\nYou can ask us about it, and we answer."
+    paragraphs = (*points, last)
     page = Page(
         title="What we study", paragraphs=paragraphs, signs=("compare", "seen", "chance", "questions", "helper")
     )
@@ -200,4 +225,4 @@ def test_two_points_stand_on_cards_between_plain_lines_and_the_helper_says_the_f
     assert place(1).y() - place(0).y() < 2 * texts["Point 0."].height()
     # A click on it in the preview finds the whole point.
     assert texts["Point 0."].parentItem().property("text") == paragraphs[0]
-    assert lies_in(texts["It is no test. You can ask us."], "Bubble")
+    assert lies_in(texts[last.replace("\n", ". ")], "Bubble")

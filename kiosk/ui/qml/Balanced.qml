@@ -1,4 +1,5 @@
-// A text whose last line is no single word: its lines are made a little shorter than their place until they are even.
+// A text of which no paragraph ends with a single word on a line: its lines are made a little shorter than their place
+// until they are even.
 import QtQuick
 import "."
 
@@ -25,35 +26,44 @@ PlainText {
     // How much narrower the lines can be without one more, so that the last is long enough, or as long as it gets. What
     // is measured depends on the font, which is named for that reason alone.
     function spare(text: string, room: real, doubled: bool, _font: font): real {
-        const words = text.split(" ")
-        const whole = letters.advanceWidth(text)
-        if (words.length < 3 || words.length > 60 || text.includes("\n") || whole <= room && !doubled)
+        const paragraphs = text.split("\n")
+        const count = text.split(" ").length
+        const whole = Math.max(...paragraphs.map(each => letters.advanceWidth(each)))
+        if (count < 3 || count > 60 || whole <= room && (!doubled || paragraphs.length > 1))
             return 0
-        const gap = letters.advanceWidth(" "), sizes = words.map(word => letters.advanceWidth(word))
+        const gap = letters.advanceWidth(" ")
+        const parts = paragraphs.map(each => each.split(" ").map(word => letters.advanceWidth(word)))
         if (whole <= room) {
             // The longer of two lines, where they differ least.
             let ahead = -gap
-            const longer = sizes.slice(0, -1).map(size => Math.max(ahead += gap + size, whole - ahead - gap))
+            const longer = parts[0].slice(0, -1).map(size => Math.max(ahead += gap + size, whole - ahead - gap))
             return Math.max(0, room - Math.min(...longer) - 2)
         }
-        const widest = Math.max(...sizes)
+        const widest = Math.max(...parts.map(sizes => Math.max(...sizes)))
         let most = 0, best = 0, narrow = room
         for (let tried = room; tried >= widest;) {
-            let lines = 1, last = 0, longest = 0
-            for (const size of sizes) {
-                if (last > 0 && last + gap + size > tried) {
-                    longest = Math.max(longest, last)
-                    lines++
-                    last = size
-                } else
-                    last += (last > 0 ? gap : 0) + size
+            let lines = 0, shortest = Infinity, longest = 0
+            for (const sizes of parts) {
+                const before = lines
+                let last = 0
+                for (const size of sizes) {
+                    if (last > 0 && last + gap + size > tried) {
+                        longest = Math.max(longest, last)
+                        lines++
+                        last = size
+                    } else
+                        last += (last > 0 ? gap : 0) + size
+                }
+                longest = Math.max(longest, last)
+                // A paragraph of one line ends where it ends.
+                if (lines++ > before)
+                    shortest = Math.min(shortest, last)
             }
-            longest = Math.max(longest, last)
             most = most || lines
             if (lines > most)
                 break
-            if (last / longest > best) {
-                best = last / longest
+            if (shortest / longest > best) {
+                best = shortest / longest
                 narrow = tried === room ? room : longest
             }
             if (best >= least)

@@ -14,7 +14,7 @@ PageFrame {
     readonly property real side: Math.max((texts.halved || view.signed && width > height ? 230 : 290) * Theme.unit, Math.min((signed && width < height ? most : paired ? usual : 350) * Theme.unit, room - texts.height - keepsake.crown - 2 * pad - 2 * rim - (width < height ? 1.1 : 1) * Theme.gap))
     // How large the code may be on an upright page, where the words beside it have to find room.
     readonly property real most: width < height && fits(Theme.size(34), noted, apart, 400) ? 400 : usual
-    readonly property real usual: 352
+    readonly property real usual: both ? 410 : 352
     // How far the white around the code reaches beyond its own frame, for round corners.
     readonly property real rim: 6 * Theme.unit
     // Whole pixels for each square, so that their edges are sharp.
@@ -36,9 +36,14 @@ PageFrame {
         }, [[]])
     }
     readonly property real pairedSize: !accompanied || width <= height || read.length < 3 || read[0].sign === "" ? 0
+        // Where the helper says the last two, there is room for a line more.
+        : pairing(3) || (both ? pairing(4) : 0)
+    // How large the letters are then, with so many lines in a card at most; 0 where there is no room.
+    function pairing(most: int): real {
         // With less room than for a large code there is still a smaller one.
-        : [400, 342].map(card => [36, 35, 34].map(Theme.size).find(size => brief(size) && 1.02 * stacked(size) + between + Theme.gap + card * Theme.unit <= room)).find(size => size !== undefined)
-            ?? [36, 35, 34, 33, 32].map(Theme.size).find(size => brief(size) && stacked(size) + between + 333 * Theme.unit <= room) ?? 0
+        return [400, 342].map(card => [36, 35, 34].map(Theme.size).find(size => brief(size, most) && 1.02 * stacked(size) + between + Theme.gap + card * Theme.unit <= room)).find(size => size !== undefined)
+            ?? [36, 35, 34, 33, 32].map(Theme.size).find(size => brief(size, most) && stacked(size) + between + 333 * Theme.unit <= room) ?? 0
+    }
     readonly property bool pairable: pairedSize > 0
     // Those that stand in pairs are cards, with this much around what they say.
     readonly property real inset: 0.75 * Theme.gap
@@ -48,15 +53,15 @@ PageFrame {
         return index === 0 ? 0 : (index === 1 ? 0.75 : rows[index].length === 1 ? 0.6 : 1) * Theme.gap
     }
     // Heading and text of a plain point are one line, where that has room.
-    function runsOn(widths: var, size: real, leading = size): bool {
-        return widths?.length === 2 && widths[0] * leading / 100 + widths[1] * size / 100 + 0.45 * leading <= 0.995 * column
+    function runsOn(widths: var, size: real): bool {
+        return widths?.length === 2 && (widths[0] + widths[1]) * size / 100 + 0.45 * size <= 0.995 * column
     }
-    // How large such a heading is: larger than its text, where all of them have the width and the page has the height.
+    // How large such a line is: larger than the cards' texts, where all of them have the width and the page has the height.
     readonly property real headingSize: {
         const plain = measuredRows.filter(row => row.length === 1).map(row => row[0])
         const scanned = Math.floor(usual * Theme.unit / Math.max(1, debrief.squares)) * debrief.squares
         const free = room - stacked(pairedSize) - between - 1.2 * Theme.gap - scanned - 2 * rim - 1.5 * Theme.gap
-        return [42, 41, 40].map(Theme.size).find(size => plain.every(widths => runsOn(widths, pairedSize, size))
+        return [42, 41, 40].map(Theme.size).find(size => plain.every(widths => runsOn(widths, size))
             && plain.length * Math.ceil(1.37 * (size - pairedSize)) <= free) ?? pairedSize
     }
     readonly property real between: rows.reduce((sum, row, index) => sum + step(index), 0)
@@ -66,8 +71,8 @@ PageFrame {
         const width = plain ? column : (column - Theme.gap) / 2 - 2 * insetAcross - 2.5 * size - Theme.gap
         return plain && runsOn(row[0], size) ? 1 : Math.max(...row.map(widths => broken(widths, size, width)))
     }
-    function brief(size: real): bool {
-        return measuredRows.every(row => tallest(row, size) <= 3)
+    function brief(size: real, most: int): bool {
+        return measuredRows.every(row => tallest(row, size) <= most)
     }
     function stacked(size: real): real {
         return measuredRows.reduce((sum, row) => sum + (row.length > 1 ? 2 * inset : 0)
@@ -132,8 +137,10 @@ PageFrame {
         return widths.reduce((sum, wide) => sum + Math.ceil(wide * size / 100 / room), 0)
     }
 
-    aside: sayable(debrief.lines)
-    readonly property var read: aside === "" ? debrief.lines : debrief.lines.slice(0, -1)
+    // The helper says the last line. It says the last two where the first of them would stand alone between cards and code.
+    readonly property bool both: sayable(debrief.lines, 2) !== "" && debrief.lines.length === 5 && debrief.lines[0].sign !== ""
+    aside: both ? sayable(debrief.lines, 2) : sayable(debrief.lines)
+    readonly property var read: aside === "" ? debrief.lines : debrief.lines.slice(0, both ? -2 : -1)
 
     title: debrief.title
     label: words["debrief-continue"]
@@ -157,7 +164,7 @@ PageFrame {
         property bool bare: false
         property real tall: said
         readonly property real inset: bare ? 0 : view.inset
-        readonly property bool runsOn: bare && view.runsOn(view.measured(modelData.text, boldLetters), view.size, view.headingSize)
+        readonly property bool runsOn: bare && view.runsOn(view.measured(modelData.text, boldLetters), view.headingSize)
         readonly property real said: runsOn ? lead.height : point.height
         height: tall + 2 * inset
         radius: Theme.radius
@@ -187,10 +194,9 @@ PageFrame {
                 font { pixelSize: view.headingSize; bold: true }
             }
             PlainText {
-                x: Theme.across(head.width + 0.3 * view.size, width, parent.width)
-                y: head.baselineOffset - baselineOffset
+                x: Theme.across(head.width + 0.3 * view.headingSize, width, parent.width)
                 text: lead.parts[1]
-                font.pixelSize: view.size
+                font.pixelSize: view.headingSize
             }
         }
     }
