@@ -37,15 +37,7 @@ from kiosk.training.learning import (
     LearningRate,
     Recipe,
 )
-from kiosk.training.memory_timing import (
-    CARD_THRESHOLDS,
-    STARTS,
-    THRESHOLDS,
-    best_timing,
-    checked_timing,
-    simulate_timing,
-    tune_timing,
-)
+from kiosk.training.memory_timing import TimingExperiment, best_timing, checked_timing, timing_grid
 from kiosk.training.rewards import Reward
 from kiosk.training.simulated_players import (
     ChancePlayer,
@@ -243,10 +235,9 @@ def _tune_thresholds(out: Path, games: int | None, limits: tuple[float, float], 
     gate, target = GATES[options["gate"] or "on"], TargetRule(options["target"] or TargetRule.MOST_FLIPPED.value)
     games = GAMES_TO_TUNE if games is None else games
     check_writable(out)
-    grid = (THRESHOLDS, CARD_THRESHOLDS, STARTS)
-    total = len(THRESHOLDS) ** 2 * len(CARD_THRESHOLDS) * len(STARTS) * games
-    with progress_bar("tuning", total, hidden=json_) as progress:
-        tried = list(tune_timing(gate, player, target, games, options["seed"], *grid, progress))
+    experiment, timings = TimingExperiment(gate, player, target, games, options["seed"]), timing_grid()
+    with progress_bar("tuning", len(timings) * games, hidden=json_) as progress:
+        tried = list(experiment.tune(timings, progress))
     best = best_timing(tried, *limits)
     best_at = dict(zip(_THRESHOLDS, astuple(best.timing), strict=True))
     lines = "".join(f"{name} = {value:g}\n" for name, value in best_at.items())
@@ -382,7 +373,7 @@ def simulate_command(
         if timing is None or where is None:
             played = simulation.simulate_games(table, player, rule, games, seed, progress)
         else:
-            played = simulate_timing(timing, table.gate, player, rule, games, seed, progress)
+            played = TimingExperiment(table.gate, player, rule, games, seed).play(timing, progress)
     measures = played.measures() | ({"timing": asdict(timing)} if timing and where else {})
     asked = {"player": player.parameters(), "policy": table.name, "policy_sha256": table.sha256, "seed": seed}
     _say(asked | {"condition": condition, "target": rule.value} | measures, _told(measures), json_=json_)

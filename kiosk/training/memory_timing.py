@@ -7,7 +7,7 @@ help is put to kiosk.assistance.memory_model. That takes half a millisecond a fl
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 
@@ -49,28 +49,11 @@ def checked_timing(first: float, second: float, card: float = 0.0, flips: int = 
     return MemoryTiming(first, second, card, whole("the flips before there is help", flips))
 
 
-def simulate_timing(  # noqa: PLR0913, PLR0917 - an experiment is all of these
-    timing: MemoryTiming,
-    gate: Gate,
-    player: SimulatedPlayer,
-    target: TargetRule,
-    games: int,
-    seed: int,
-    progress: Progress = lambda _: None,
-) -> GameResults:
-    """Play ``games`` games (2 or more) of ``player``, helped where ``timing`` says so; fixed by ``seed``.
-
-    Raises UserInputError if there are too few games, or a game does not end.
-    """
-    games = checked_games(games)
-    table = lay(player, gate_plan(gate, one_of("target", target, TargetRule)), seed)
-    tallies = []
-    for number in range(games):
-        _play(table, timing)
-        refuse_endless(int(table.game[FLIPS]))
-        tallies.append(tuple(int(count) for count in table.tally))
-        progress(number + 1)
-    return GameResults(tuple(tallies))
+def timing_grid(
+    thresholds: Sequence[float] = THRESHOLDS, cards: Sequence[float] = CARD_THRESHOLDS, starts: Sequence[int] = STARTS
+) -> tuple[MemoryTiming, ...]:
+    """Return every timing with these thresholds for first and second cards, and for naming a card, and these starts."""
+    return tuple(checked_timing(*each) for each in product(thresholds, thresholds, cards, starts))
 
 
 def _play(table: GameTable, timing: MemoryTiming) -> None:
@@ -106,25 +89,43 @@ class TunedTiming:
     results: GameResults
 
 
-def tune_timing(  # noqa: PLR0913, PLR0917 - an experiment is all of these
-    gate: Gate,
-    player: SimulatedPlayer,
-    target: TargetRule,
-    games: int,
-    seed: int,
-    thresholds: Sequence[float],
-    cards: Sequence[float] = (0.0,),
-    starts: Sequence[int] = (0,),
-    progress: Progress = lambda _: None,
-) -> Iterator[TunedTiming]:
-    """Play games with all thresholds, the same boards for each; yield what came of them.
+@dataclass(frozen=True, slots=True)
+class TimingExperiment:
+    """Games that are the same but for when the model of memory has the player helped.
 
-    ``cards`` are tried below which a card that was seen is named, ``starts`` as the flips before there is help.
+    There are 2 ``games`` or more; ``seed`` fixes their boards and all that is random in them.
     """
-    for number, tried in enumerate(product(thresholds, thresholds, cards, starts)):
-        timing = checked_timing(*tried)
-        told = lambda played, before=number * games: progress(before + played)  # noqa: E731 - binds the number
-        yield TunedTiming(timing, simulate_timing(timing, gate, player, target, games, seed, told))
+
+    gate: Gate
+    player: SimulatedPlayer
+    target: TargetRule
+    games: int
+    seed: int
+
+    def play(self, timing: MemoryTiming, progress: Progress = lambda _: None) -> GameResults:
+        """Play the games, helped where ``timing`` says so.
+
+        Raises UserInputError if there are too few games, or a game does not end.
+        """
+        games = checked_games(self.games)
+        table = lay(self.player, gate_plan(self.gate, one_of("target", self.target, TargetRule)), self.seed)
+        tallies = []
+        for number in range(games):
+            _play(table, timing)
+            refuse_endless(int(table.game[FLIPS]))
+            tallies.append(tuple(int(count) for count in table.tally))
+            progress(number + 1)
+        return GameResults(tuple(tallies))
+
+    def tune(self, timings: Iterable[MemoryTiming], progress: Progress = lambda _: None) -> Iterator[TunedTiming]:
+        """Play the games once with each of these timings, and yield what came of them."""
+        for number, timing in enumerate(timings):
+            yield TunedTiming(timing, self.play(timing, _going_on(progress, number * self.games)))
+
+
+def _going_on(progress: Progress, before: int) -> Progress:
+    """Return what counts on from the games that were played before."""
+    return lambda played: progress(before + played)
 
 
 def best_timing(tried: Sequence[TunedTiming], assistance: float, spread: float = math.inf) -> TunedTiming:

@@ -13,7 +13,7 @@ from kiosk.assistance.memory_model import MemoryEstimate, MemoryTiming
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import ActionSpec, Gate, QTable
 from kiosk.config import AssistanceConfig
-from kiosk.training.memory_timing import TunedTiming, best_timing, simulate_timing, tune_timing
+from kiosk.training.memory_timing import TimingExperiment, TunedTiming, best_timing, timing_grid
 from kiosk.training.simulated_players import MemoryPlayer
 from kiosk.training.simulation import T_FIRST, T_SECOND, GameResults, simulate_games
 from tests.training.test_commands import run, told
@@ -21,11 +21,12 @@ from tests.training.test_commands import run, told
 PLAYER = MemoryPlayer((0.3, 0.3))
 TARGET = TargetRule.MOST_FLIPPED
 GAMES, SEED = 6, 3
+EXPERIMENT = TimingExperiment(Gate(), PLAYER, TARGET, GAMES, SEED)
 
 
 def played(first: float, second: float, seed: int = SEED) -> GameResults:
     """Play a few games with these thresholds."""
-    return simulate_timing(MemoryTiming(first, second), Gate(), PLAYER, TARGET, GAMES, seed)
+    return replace(EXPERIMENT, seed=seed).play(MemoryTiming(first, second))
 
 
 def test_thresholds_of_0_never_help_and_the_games_are_those_without_help() -> None:
@@ -51,7 +52,7 @@ def test_the_same_seed_plays_the_same_games() -> None:
 
 
 def test_the_best_thresholds_have_the_fewest_flips_at_no_more_than_the_assistance() -> None:
-    tried = list(tune_timing(Gate(), PLAYER, TARGET, GAMES, SEED, (0.0, 0.5)))
+    tried = list(EXPERIMENT.tune(timing_grid((0.0, 0.5), (0.0,), (0,))))
     assert [(each.timing.first, each.timing.second) for each in tried] == [(0, 0), (0, 0.5), (0.5, 0), (0.5, 0.5)]
     allowed = sorted(each.results.assistance.mean for each in tried)[2]
     best = best_timing(tried, allowed)
@@ -60,13 +61,19 @@ def test_the_best_thresholds_have_the_fewest_flips_at_no_more_than_the_assistanc
     assert best.results.flips.mean == min(each.results.flips.mean for each in others)
 
 
+def test_the_games_that_are_played_are_counted_over_all_timings() -> None:
+    counted: list[int] = []
+    assert len(list(EXPERIMENT.tune(timing_grid((0.1, 0.2), (0.0,), (24,)), counted.append))) == 4
+    assert counted == list(range(1, 4 * GAMES + 1))
+
+
 def test_where_all_help_too_much_the_one_that_helps_least_is_taken() -> None:
     tried = [TunedTiming(MemoryTiming(*each), played(*each)) for each in ((0.3, 0.6), (0.1, 0.2))]
     assert best_timing(tried, 0.0) is tried[1]
 
 
 def test_a_lower_spread_can_be_asked_for() -> None:
-    tried = list(tune_timing(Gate(), PLAYER, TARGET, GAMES, SEED, (0.0, 0.5), (0.0, 0.1)))
+    tried = list(EXPERIMENT.tune(timing_grid((0.0, 0.5), (0.0, 0.1), (0,))))
     spreads = sorted(each.results.flips.sd for each in tried)
     assert best_timing(tried, 9, spreads[0]).results.flips.sd == spreads[0]
     assert best_timing(tried, 9, 0).results.flips.sd == spreads[0]
@@ -90,18 +97,14 @@ def test_help_goes_to_long_games_where_it_begins_after_some_flips() -> None:
     assert [timing.action(before, flips) for flips in (23, 24)] == [ActionSpec.NO_HELP, ActionSpec.SUG_COL]
     assert "no help before 24" in timing.told(before, 23)
     assert "below 0.2" in timing.told(before, 24)
-    early, late = (
-        simulate_timing(replace(timing, flips=flips), Gate(), PLAYER, TARGET, GAMES, SEED) for flips in (0, 24)
-    )
+    early, late = (EXPERIMENT.play(replace(timing, flips=flips)) for flips in (0, 24))
     assert late.total(T_SECOND) < early.total(T_SECOND)
 
 
 @pytest.fixture
 def few(monkeypatch: pytest.MonkeyPatch) -> None:
     """Have the command try four pairs of thresholds."""
-    monkeypatch.setattr("kiosk.cli.learning.THRESHOLDS", (0.1, 0.4))
-    monkeypatch.setattr("kiosk.cli.learning.CARD_THRESHOLDS", (0.07,))
-    monkeypatch.setattr("kiosk.cli.learning.STARTS", (12,))
+    monkeypatch.setattr("kiosk.cli.learning.timing_grid", lambda: timing_grid((0.1, 0.4), (0.07,), (12,)))
 
 
 @pytest.mark.usefixtures("few")
