@@ -166,7 +166,7 @@ def test_columns_stand_equally_far_apart_and_fill_the_card(window: Window) -> No
         "cells": [cell | {"listed": False, "done": "1"} for cell in unlisted["cells"]],
     }
     unlisted["sessions"] = unlisted["sessions"][:1]
-    show(window, "en", WIDE, records=unlisted)
+    show(window, "en", UPRIGHT, records=unlisted)
     columns: dict[int, float] = {}
     for cell in of_kind(window, "PanelCell"):
         start = round(cell.mapToScene(QPointF()).x())
@@ -192,3 +192,16 @@ def test_checks_stand_as_close_as_the_rows_of_the_tables(window: Window, size: t
     assert [after - before - lines[0].height() for before, after in pairwise(levels)] == pytest.approx(
         [apart] * (len(levels) - 1), abs=ROUNDED
     )
+
+
+def test_few_checks_stand_beside_the_counts_and_the_sessions_have_the_whole_width_below(window: Window) -> None:
+    show(window, "en", WIDE)
+    (checks,), (counts,), (sessions,) = (of_kind(window, f"Panel{name}") for name in ("Health", "Counts", "Sessions"))
+    assert checks.height() == counts.height()
+    assert sessions.mapToScene(QPointF()).x() == checks.mapToScene(QPointF()).x()
+    assert sessions.width() > checks.width() + counts.width()
+    health = busy_day("en")["health"]
+    show(window, "en", WIDE, health=health | {"lines": health["lines"] * 2})
+    (counts,), (sessions,) = (of_kind(window, f"Panel{name}") for name in ("Counts", "Sessions"))
+    assert sessions.mapToScene(QPointF()).x() == counts.mapToScene(QPointF()).x()
+    assert sessions.width() == counts.width()

@@ -20,17 +20,19 @@ PanelTable {
     aside: names.visible ? names.width : 0
     crown: names.visible ? names.height : 0
     title: words[records.listed ? "console-counts" : "console-counts-unlisted"]
-    // Without a list there is no quota: its sessions are counted as soon as they begin.
-    heads: ["", words[records.listed ? "console-counts-done" : "console-counts-begun"], ...told.map(column => words["console-counts-" + column])]
-    rows: records.cells.map(cell => ({
-        odd: false,
-        cells: [
-            { words: cell.name, strong: true },
-            // In one line, as one number.
-            { words: cell.done.replace(/ /g, "\u00a0"), strong: true, share: cell.listed ? cell.share : undefined },
-            ...told.map(column => cell.counts[columns.indexOf(column)]).map(number => ({ words: number, strong: number !== "0" }))
-        ]
-    }))
+    shown: ({
+        // Without a list there is no quota: its sessions are counted as soon as they begin.
+        heads: ["", words[records.listed ? "console-counts-done" : "console-counts-begun"], ...told.map(column => words["console-counts-" + column])],
+        rows: records.cells.map(cell => ({
+            odd: false,
+            cells: [
+                { words: cell.name, strong: true },
+                // In one line, as one number.
+                { words: cell.done.replace(/ /g, "\u00a0"), strong: true, share: cell.listed ? cell.share : undefined },
+                ...told.map(column => cell.counts[columns.indexOf(column)]).map(number => ({ words: number, strong: number !== "0" }))
+            ]
+        }))
+    })
 
     // Visitors may read along, so the conditions are named only on request.
     PanelButton {
@@ -38,6 +40,8 @@ PanelTable {
         parent: counts
         anchors { top: parent.top; right: parent.right; margins: counts.inset; topMargin: 0.8 * Theme.gap }
         objectName: "names"
+        // Lower than what is done all day.
+        least: 58 * Theme.unit
         font.pixelSize: Math.max(Theme.dense, 0.95 * counts.size)
         width: Math.min(Math.ceil(implicitWidth), Math.floor(0.6 * counts.width))
         visible: counts.records.cells.length > 0
@@ -52,5 +56,7 @@ PanelTable {
         font.pixelSize: Math.max(Theme.denser, 0.94 * counts.size)
         color: Theme.faintInk
         wrapMode: Text.Wrap
+        // At the foot of a card that ends level with one beside it.
+        transform: Translate { y: counts.height - counts.wish }
     }
 }

@@ -16,12 +16,17 @@ PanelSection {
 
     readonly property real longest: reach(lines, bold.font)
     // How wide it is if no line of it wraps: its mark, its name, what it says, and the steps between them.
-    readonly property real natural: 2 * inset + 1.25 * size + longest + widest(lines.map(line => line.message), plain, plain.font) + 22 * Theme.unit
+    readonly property real natural: 2 * inset + 1.25 * size + longest + widest(lines.map(line => line.message), plain, plain.font) + 22 * Theme.unit + 2
     // How many lines of text stand below each other.
     readonly property int deep: {
-        const needs = lines.map((line, at) => Math.ceil(1.05 * widest([line.message], plain, plain.font) / Math.max(1, table.column - 1.25 * size - namedIn(at) - 20 * Theme.unit)))
+        const needs = lines.map((line, at) => {
+            const room = Math.max(1, table.column - 1.25 * size - namedIn(at) - 20 * Theme.unit)
+            const whole = widest([line.message], plain, plain.font)
+            return whole <= room ? 1 : Math.ceil(1.1 * whole / room)
+        })
         return needs.reduce((sum, _, at) => sum + (at % table.columns === 0 ? Math.max(1, ...needs.slice(at, at + table.columns)) : 0), 0)
     }
+    readonly property real packed: deep * Math.ceil(plain.height)
     // How far the names reach of the column that this line stands in.
     function namedIn(at: int): real {
         return Math.min(0.4 * table.column, double ? reach(lines.filter((_, other) => other % 2 === at % 2), bold.font) : longest)

@@ -25,7 +25,7 @@ Rectangle {
     readonly property real longest: Math.ceil(whole * written / size) + 2 * Theme.unit
     readonly property real second: longest + 1.5 * Theme.gap
     // Lines of a few matters stand apart; many stay close, so that the page does not scroll for them.
-    readonly property real tall: beside ? Math.ceil((matters.length > 3 ? 1.5 : 2.15) * written) : 0
+    readonly property real tall: beside ? Math.ceil((matters.length > 3 ? 1.5 : 1.9) * written) : 0
 
     function said(matter: var): string {
         return `${matter.name}: ${matter.message}`

@@ -6,9 +6,11 @@ import ".."
 PanelSection {
     id: table
 
-    required property list<string> heads
-    // What stands in each row: its cells, and the mark before them where rows carry one.
-    required property var rows
+    // Its `heads`, and its `rows`: the `cells` of each, and whether its mark says `odd` or `running`. In one property, as
+    // both change together.
+    required property var shown
+    readonly property var heads: shown.heads
+    readonly property var rows: shown.rows
     property bool marked: false
     // Of the bar before the words of a cell that tells a share.
     readonly property real bar: 2.8 * size
@@ -16,13 +18,13 @@ PanelSection {
     property PanelTable like: null
     readonly property bool alike: like !== null && like.visible && like.heads.length === heads.length
 
-    readonly property var titles: heads.map(head => ({ words: head, strong: false }))
+    readonly property var titles: shown.heads.map(head => ({ words: head, strong: false }))
     readonly property real step: 0.8 * size
     readonly property real room: width - 2 * inset
     readonly property real free: room - (heads.length - 1) * step
     // What each column needs where its cells have one line, two or three, and for its longest word.
     readonly property var own: [1, 2, 3, 99].map(most => needs(most))
-    readonly property var shared: own.map((widths, at) => alike ? widths.map((each, column) => Math.max(each, like.own[at][column])) : widths)
+    readonly property var shared: own.map((widths, at) => alike ? widths.map((each, column) => Math.max(each, like.own[at][column] ?? 0)) : widths)
     // Not where that breaks words of one that would stand in single lines by itself.
     readonly property var all: sum(shared[0]) <= free || sum(own[0]) > free && (!alike || sum(like.own[0]) > free) ? shared : own
     readonly property real squeeze: Math.min(1, free / sum(all[3]))
@@ -50,7 +52,7 @@ PanelSection {
         })
     }
     // How high its rows are without what lies between them.
-    readonly property real packed: rows.length === 0 ? Math.ceil(letters.height) : Math.ceil(letters.height) * (most(titles) + rows.reduce((lines, row) => lines + most(row.cells), 0)) + 2 * Theme.unit
+    readonly property real packed: shown.rows.length === 0 ? Math.ceil(letters.height) : Math.ceil(letters.height) * (most(titles) + shown.rows.reduce((lines, row) => lines + most(row.cells), 0)) + 2 * Theme.unit
 
     function sum(each: var): real {
         return each.reduce((total, one) => total + one, 0)
@@ -96,7 +98,7 @@ PanelSection {
     function needs(lines: int): var {
         return titles.map((title, at) => Math.ceil(2 + 2 * Theme.unit + (marked && at === 0 ? 1.4 * size : 0) + Math.max(
             narrow(title, lines) * size / 100,
-            ...rows.map(row => (row.cells[at].share === undefined ? 0 : bar) + narrow(row.cells[at], lines) * size / 100))))
+            ...shown.rows.map(row => (row.cells[at].share === undefined ? 0 : bar) + narrow(row.cells[at], lines) * size / 100))))
     }
     FontMetrics {
         id: bold
@@ -143,7 +145,7 @@ PanelSection {
             width: parent.width - place.from - (place.index === table.heads.length - 1 ? 0 : table.step)
             words: place.words
             heading: place.heading
-            column: place.heading ? "" : table.heads[place.index]
+            column: place.heading ? "" : table.heads[place.index] ?? ""
             strong: place.strong
             size: table.written
         }

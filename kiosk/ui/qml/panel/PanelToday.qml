@@ -22,20 +22,26 @@ Item {
 
     // Where what stands side by side begins, and where the status ends.
     readonly property real below: first.height + space
-    readonly property real foot: below + left.height
+    readonly property real foot: stacked ? sessions.y + sessions.height : below + left.height
     // What the status has of a wide screen.
     readonly property real room: wide && panel.alarms.length === 0 ? Math.floor(seen - below) : 0
 
+    // With few checks the sessions have the whole width below; otherwise they stand below the counts, beside the checks.
+    readonly property bool stacked: wide && tabled && health.visible && panel.alarms.length === 0 && health.deep <= panel.records.cells.length + 3
+    readonly property real level: Math.max(health.wish, counts.wish)
+
     // What a wide screen has left is shared among the rows of the counts and of the sessions, and so is what it lacks.
     readonly property int rows: panel.records.cells.length + panel.records.sessions.length
-    readonly property real leftOver: room > 0 && tabled ? room - space - counts.frame - counts.packed - counts.last - sessions.frame - sessions.packed - 4 * Theme.unit : 10 * Theme.unit * (rows + 2)
+    readonly property real kept: (wide ? Math.floor(seen - below) : 0) - space - sessions.frame - sessions.packed - 4 * Theme.unit
+    readonly property real shared: Math.min((kept - counts.frame - counts.packed - counts.last) / (rows + 2),
+        stacked ? (kept - health.frame - health.packed) / (health.lines.length + panel.records.sessions.length) : Infinity)
     // Where that is not enough, the page scrolls anyway.
-    readonly property real airy: !wide ? 10 * Theme.unit + spread : leftOver / (rows + 2) < 3 * Theme.unit ? 9 * Theme.unit : Math.min(26 * Theme.unit, leftOver / (rows + 2))
+    readonly property real airy: !wide ? 10 * Theme.unit + spread : !tabled || shared < 3 * Theme.unit ? 9 * Theme.unit : Math.min(26 * Theme.unit, shared)
     // The lines of the checks where they stand in two columns.
     readonly property int pairs: Math.ceil(health.lines.length / 2)
     // On an upright one it is shared among the rows of all cards, as long as there is little to tell.
     readonly property bool calm: !wide && tabled && panel.health.matters.length < 4 && panel.alarms.length === 0 && panel.records.resumable.length === 0 && !panel.choices.canBeNext && !(panel.choices.onBreak ?? false)
-    readonly property real bare: first.height + 4 * space + actions.bare + health.frame + health.deep * 1.37 * size + pairs * 10 * Theme.unit
+    readonly property real bare: first.height + 4 * space + actions.bare + health.frame + health.packed + pairs * 10 * Theme.unit
         + counts.frame + counts.packed + counts.last + sessions.frame + sessions.packed + (rows + 2) * 10 * Theme.unit + 4 * Theme.unit
     readonly property real spread: calm ? Math.floor(Math.max(0, Math.min(24 * Theme.unit, (seen - bare) / (rows + 1 + actions.lines + pairs)))) : 0
 
@@ -43,7 +49,7 @@ Item {
     // On an upright screen all second columns begin in line.
     readonly property real gutter: Math.round(40 * Theme.unit)
 
-    height: wide ? Math.max(right.height, left.y + left.height, middle.y + middle.height) : middle.y + middle.height
+    height: wide ? Math.max(right.height, left.y + left.height, sessions.y + sessions.height) : sessions.y + sessions.height
 
     Column {
         id: first
@@ -83,38 +89,36 @@ Item {
             size: today.size
             double: !today.wide && Theme.textSize <= 1.15
             gutter: today.gutter
-            least: today.room
-            apart: Math.max(today.airy, 10 * Theme.unit)
+            least: today.stacked ? today.level : today.room
+            apart: today.stacked ? today.airy : Math.max(today.airy, 10 * Theme.unit)
             // Its heading is level with that of the counts beside it.
             crown: today.wide ? counts.crown : 0
         }
     }
-    Column {
-        id: middle
+    PanelCounts {
+        id: counts
         x: today.wide ? left.width + today.space : 0
         y: today.wide ? left.y : left.y + left.height + today.space
         width: today.wide ? today.main - x : today.width
-        spacing: today.space
-        PanelCounts {
-            id: counts
-            width: parent.width
-            apart: today.airy
-            size: today.size
-            words: today.words
-            records: today.panel.records
-            like: sessions
-            named: today.panel.choices.named
-            onAsked: today.panel.wish("names", "")
-        }
-        PanelSessions {
-            id: sessions
-            width: parent.width
-            apart: today.airy
-            size: today.size
-            like: counts
-            least: Math.floor(today.wide ? today.foot - today.below - counts.height - today.space : today.seen - middle.y - y)
-            words: today.words
-            records: today.panel.records
-        }
+        apart: today.airy
+        size: today.size
+        least: today.stacked ? today.level : 0
+        words: today.words
+        records: today.panel.records
+        like: today.stacked ? null : sessions
+        named: today.panel.choices.named
+        onAsked: today.panel.wish("names", "")
+    }
+    PanelSessions {
+        id: sessions
+        x: today.stacked ? 0 : counts.x
+        y: counts.y + counts.height + today.space
+        width: today.stacked ? today.main : counts.width
+        apart: today.airy
+        size: today.size
+        like: today.stacked ? null : counts
+        least: Math.floor((today.stacked || !today.wide ? today.seen : today.below + left.height) - y)
+        words: today.words
+        records: today.panel.records
     }
 }
