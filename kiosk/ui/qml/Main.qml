@@ -47,7 +47,7 @@ Window {
     readonly property var words: kiosk.words
     readonly property real texts: Math.min(1.5, textSize * kiosk.textScale)
     // How much of the height a replay leaves.
-    readonly property real room: height - (replay === null ? 0 : controls.height) - memory.height
+    readonly property real room: height - foot.height
 
     width: 1920
     height: 1080
@@ -90,28 +90,16 @@ Window {
         boardOnRight: root.boardOnRight
         kiosk: root.kiosk
         avatar: root.avatar
-        board: boardPage.visible ? boardPage.view : null
+        board: boardPage.view
         helper: helper
         corner: corner
         steps: steps
     }
 
-    // A page is made when it is first shown, or before that while nothing else happens; then it stays.
-    component Page: Loader {
-        id: page
-        required property string name
-        readonly property bool shown: root.kiosk.screen === name
-        // What of it the helper says.
-        readonly property string aside: (item as PageFrame)?.aside ?? ""
-        // A page that is not seen keeps its size until it is filled: laying out all their texts anew holds up the others.
-        readonly property bool follows: shown || status !== Loader.Ready || layout.wide && root.kiosk.coming === name
-        Binding on width { when: page.follows; value: layout.widthOn(page.name); restoreMode: Binding.RestoreNone }
-        Binding on height { when: page.follows; value: layout.heightOn(page.name); restoreMode: Binding.RestoreNone }
-        asynchronous: !shown
-        visible: shown && status === Loader.Ready
-        focus: visible && root.kiosk.bare
-        active: root.prepares
-        onShownChanged: if (shown) active = true
+    component Page: PageLoader {
+        kiosk: root.kiosk
+        windowLayout: layout
+        prepares: root.prepares
     }
     // Whether the parts of a session are made by now.
     readonly property bool needsParts: preparesParts || kiosk.inSession
@@ -185,73 +173,20 @@ Window {
         Part {
             id: formPage
             shown: root.kiosk.screen === "form"
-            property bool keysBeside: false
-            property bool lined: false
+            readonly property FormPage page: visible ? item as FormPage : null
             x: -stage.x
             y: -stage.y
             width: root.width
             height: root.height
             focus: visible && root.kiosk.bare
-            sourceComponent: Item {
-                // While the helper is rated it shows its back: on a wide page over the edge of the first card, where the
-                // title's line has room for it, and on an upright one beside the controls.
-                AvatarBack {
-                    id: turnedAway
-                    objectName: "turned-away"
-                    readonly property real line: stage.x + formView.bare.x
-                    readonly property real from: layout.wide ? line : steps.visible ? steps.x + steps.width : Theme.gap
-                    readonly property real to: layout.wide ? Math.min(line + formView.bare.width, steps.x) : corner.x
-                    // Whether there is room for its words before it, and how much they take.
-                    readonly property real needs: whyTurned.width + 0.5 * Theme.gap
-                    readonly property bool tells: whyTurned.height <= height && to - from >= width + needs + 2 * Theme.gap
-                    readonly property real least: from + Theme.gap + (tells && !Theme.mirrored ? needs : 0)
-                    readonly property real most: to - Theme.gap - width - (tells && Theme.mirrored ? needs : 0)
-                    // At one place beside titles of any length, unless they are too long for that.
-                    readonly property real wished: layout.wide ? (Theme.mirrored ? from + 2.8 * Theme.gap : to - 2.8 * Theme.gap - width)
-                        : !tells ? (from + to - width) / 2 : Theme.mirrored ? from + Theme.gap : least
-                    height: (layout.wide ? 122 : 110) * Theme.unit
-                    x: Math.round(Math.max(least, Math.min(most, wished)))
-                    y: Math.round((layout.wide ? stage.y + formView.bare.height : root.room) - height)
-                    visible: root.avatar.present && helper.gone && formView.still && to - from >= width + 2 * Theme.gap
-                        && (layout.wide ? y > 0 : formView.y + formView.foot + formView.way.height < y)
-                }
-                // Measured apart: words whose width depends on their own implicit one have a binding loop when the page turns.
-                TextMetrics {
-                    id: turnedWords
-                    text: whyTurned.text
-                    font: whyTurned.font
-                }
-                PlainText {
-                    id: whyTurned
-                    objectName: "why-turned-away"
-                    visible: turnedAway.visible && turnedAway.tells
-                    text: root.words["form-turned"]
-                    // In two lines on a wide page, beside titles of many words.
-                    width: layout.wide ? formView.folded([{ text }], "text", font.pixelSize) : Math.ceil(turnedWords.advanceWidth)
-                    x: turnedAway.x + (Theme.mirrored ? turnedAway.width + turnedAway.needs - width : -turnedAway.needs)
-                    y: layout.wide ? turnedAway.y + (turnedAway.height - height) / 2 : corner.y + (corner.height - height) / 2
-                    wrapMode: layout.wide ? Text.WordWrap : Text.NoWrap
-                    horizontalAlignment: Text.AlignRight
-                    font.pixelSize: Theme.size(layout.wide ? 28 : 30)
-                    color: Theme.faintInk
-                }
-                FormView {
-                    id: formView
-                    x: stage.x
-                    y: stage.y
-                    readonly property bool follows: formPage.shown || formPage.status !== Loader.Ready || layout.wide && root.kiosk.coming === "form"
-                    Binding on width { when: formView.follows; value: layout.widthOn("form"); restoreMode: Binding.RestoreNone }
-                    Binding on height { when: formView.follows; value: layout.heightOn("form"); restoreMode: Binding.RestoreNone }
-                    Binding on accompanied { when: formView.follows; value: layout.accompanied && !root.avatar.away; restoreMode: Binding.RestoreNone }
-                    focus: true
-                    aligned: layout.accompanied
-                    before: stage.x
-                    form: root.form
-                    kiosk: root.kiosk
-                    words: root.words
-                }
-                Binding { target: formPage; property: "keysBeside"; value: formView.keysBeside }
-                Binding { target: formPage; property: "lined"; value: formView.lined }
+            sourceComponent: FormPage {
+                kiosk: root.kiosk
+                avatar: root.avatar
+                form: root.form
+                words: root.words
+                windowLayout: layout
+                follows: formPage.shown || formPage.status !== Loader.Ready || layout.wide && root.kiosk.coming === "form"
+                helperGone: helper.gone
             }
         }
         Page {
@@ -275,7 +210,8 @@ Window {
             Binding on width { when: boardPage.follows; value: layout.widthOn("game"); restoreMode: Binding.RestoreNone }
             Binding on height { when: boardPage.follows; value: layout.heightOn("game"); restoreMode: Binding.RestoreNone }
             focus: visible && root.kiosk.bare
-            readonly property BoardView view: item as BoardView
+            // Only while it is shown.
+            readonly property BoardView view: visible ? item as BoardView : null
             sourceComponent: BoardView {
                 id: boardView
                 focus: true
@@ -290,7 +226,7 @@ Window {
                 said: helper.says
                 lent: Math.max(0, layout.helperReach - Theme.gap)
                 faceAt: layout.wide || !root.avatar.present ? 0 : helper.y + helper.faceTop - stage.y
-                told: helper.tells
+                told: prompt.tells
                 onWon: if (!root.board.practice) feast.begin()
                 // How a practice goes is clear by now.
                 onFirstFound: if (root.board.practice && !root.board.speaking) helper.fade()
@@ -357,6 +293,19 @@ Window {
             lineSize: Theme.size(roomy ? 54 : 50)
         }
     }
+    Prompt {
+        id: prompt
+        board: root.board
+        view: boardPage.view
+        words: root.words
+        // On a wide screen alone the helper stands beside the pages.
+        line: !layout.wide ? ""
+            : attractView.visible ? root.attract.line
+            : formPage.visible ? (root.avatar.away || (formPage.page?.keysBeside ?? false) ? "" : root.words["form-calm"])
+            : [aboutPage, agePage, consentPage, debriefPage].find(page => page.shown)?.aside ?? ""
+        hushed: !root.avatar.present || root.kiosk.asks !== "" || root.kiosk.asksStillThere
+        says: helper.says
+    }
     SidePanel {
         id: helper
         // The keys of a number stand in its place.
@@ -378,25 +327,13 @@ Window {
         lift: layout.helperLift
         leads: layout.asking || !layout.speaks
         hushed: layout.asking
-        readonly property bool done: boardPage.visible && boardPage.view.last.length > 0 && !root.board.practice
-        // How a move goes on, and that it made a pair, is said in the practice; in the game a line under the cards says it.
-        readonly property bool practises: boardPage.visible && root.board.practice
-        readonly property bool second: practises && root.board.oneUp && root.board.open && !boardPage.view.marks
-        readonly property bool missed: practises && root.board.missed
-        readonly property bool glad: practises && boardPage.view.latest.length > 0 && !root.board.speaking
-        readonly property bool tells: (second || missed) && aside !== "" && !says
-        readonly property string turn: second ? root.words["practice-second"] : missed ? root.words["practice-turning-back"] : glad ? root.words["practice-pair"] : done ? root.words["game-found"]
-            : boardPage.visible && root.board.untouched && root.board.open ? root.words["game-begin"] : ""
         outcome: root.words["practice-no-pair"]
         outcomeOf: root.words["practice-turning-back"]
-        cheers: aside !== "" && aside === turn && (glad || done) && !second && !missed
-        aside: !root.avatar.present || layout.whole || root.kiosk.asks !== "" || root.kiosk.asksStillThere ? "" : !layout.wide ? turn : attractView.visible ? root.attract.line
-             : formPage.visible ? (root.avatar.away || formPage.keysBeside ? "" : root.words["form-calm"])
-             : boardPage.visible ? turn
-             : [aboutPage, agePage, consentPage, debriefPage].find(page => page.shown)?.aside ?? ""
-        quiet: boardPage.visible && boardPage.view.moves
-        marks: boardPage.visible && boardPage.view.marks
-        marked: boardPage.visible ? helper.mapFromItem(boardPage, boardPage.view.marked.x, boardPage.view.marked.y) : Qt.point(0, 0)
+        aside: prompt.text
+        cheers: prompt.cheers
+        quiet: boardPage.view?.moves ?? false
+        marks: boardPage.view?.marks ?? false
+        marked: boardPage.view !== null ? helper.mapFromItem(boardPage, boardPage.view.marked.x, boardPage.view.marked.y) : Qt.point(0, 0)
     }
     Corner {
         id: corner
@@ -416,7 +353,7 @@ Window {
         steps: root.kiosk.steps
         step: root.kiosk.step
         // Not below a line of another number of parts.
-        visible: corner.visible && root.kiosk.step >= 0 && !(formPage.visible && formPage.lined)
+        visible: corner.visible && root.kiosk.step >= 0 && !(formPage.page?.lined ?? false)
         opacity: corner.opacity
         x: layout.stepsX
         y: layout.stepsY
@@ -452,26 +389,12 @@ Window {
         anchors.fill: parent
         PointHandler { onActiveChanged: if (active) Theme.byKeyboard = false }
     }
-    Loader {
-        id: memory
-        // Not by anchors: pictures are also taken before the window's content has its size.
+    ReplayFoot {
+        id: foot
         y: root.room
         width: root.width
-        height: root.replayMemory === null ? 0 : 176
-        active: root.replayMemory !== null
-        sourceComponent: Rectangle {
-            color: Theme.ink
-            MemoryDrawing {
-                anchors.fill: parent
-                replay: root.replayMemory
-            }
-        }
-    }
-    Loader {
-        id: controls
-        anchors { left: parent.left; right: parent.right; bottom: parent.bottom }
-        height: root.replay === null ? 0 : 48
-        active: root.replay !== null
-        sourceComponent: ReplayBar { replay: root.replay; words: root.words }
+        replay: root.replay
+        memory: root.replayMemory
+        words: root.words
     }
 }
