@@ -1,4 +1,4 @@
-"""The commands of the learning layer: train, simulate, and a group about policy files."""
+"""The commands that learn and play: train and simulate."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, astuple, fields, replace
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -19,24 +18,14 @@ import click
 from kiosk import UserInputError
 from kiosk.assistance.memory_model import MemoryTiming
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import ACTIONS, NO_GATE, ActionSpec, Gate, QTable, State, check_actions, find_action
-from kiosk.cli import evidence
+from kiosk.assistance.policy import ACTIONS, NO_GATE, ActionSpec, Gate, QTable, check_actions, find_action
 from kiosk.cli.options import progress_bar
 from kiosk.cli.terminal import tell_line
 from kiosk.config import KNOWN_CONDITIONS, AssistanceConfig
 from kiosk.experiment.condition import Condition, target_rule
 from kiosk.files import check_writable, write_file
-from kiosk.training import policies, simulation
-from kiosk.training.learning import (
-    CHOICES,
-    RECIPES,
-    Averaging,
-    Decisions,
-    Exploration,
-    Learner,
-    LearningRate,
-    Recipe,
-)
+from kiosk.training import simulation
+from kiosk.training.learning import CHOICES, RECIPES, Averaging, Decisions, Exploration, Learner, LearningRate, Recipe
 from kiosk.training.memory_timing import TimingExperiment, best_timing, checked_timing, timing_grid
 from kiosk.training.rewards import Reward
 from kiosk.training.simulated_players import (
@@ -215,7 +204,7 @@ def train_command(out: Path, name: str | None, reward: str, json_: bool, **optio
         _leave_checkpoint(learner, name, out)
     table = learner.freeze(name, train_command_line(recipe, name))
     write_file(out, table.to_json())
-    _say(
+    say(
         {"policy": name, "file": str(out), "episodes": learner.episodes, "sha256": table.sha256},
         f"{out}: the table {name!r} after {learner.episodes:,} episodes, sha256 {table.sha256}",
         json_=json_,
@@ -245,7 +234,7 @@ def _tune_thresholds(out: Path, games: int | None, limits: tuple[float, float], 
     measures = best.results.measures()
     told = {"file": str(out), **best_at, **measures}
     flips, given = best.results.flips, best.results.assistance.mean
-    _say(
+    say(
         told,
         f"{out}: help below {best.timing.first:g} and {best.timing.second:g}, a seen card is named below "
         f"{best.timing.card:g}, all from {best.timing.flips} flips on; {flips.mean:.1f} flips (SD {flips.sd:.1f}), "
@@ -319,7 +308,8 @@ def _word(value: Any) -> str:
     return ":".join(map(repr, value)) if isinstance(value, list) else str(value)
 
 
-def _say(document: dict[str, Any], text: str, *, json_: bool) -> None:
+def say(document: dict[str, Any], text: str, *, json_: bool) -> None:
+    """Print the document as JSON, or else the text."""
     click.echo(json.dumps(document) if json_ else text)
 
 
@@ -376,7 +366,7 @@ def simulate_command(
             played = TimingExperiment(table.gate, player, rule, games, seed).play(timing, progress)
     measures = played.measures() | ({"timing": asdict(timing)} if timing and where else {})
     asked = {"player": player.parameters(), "policy": table.name, "policy_sha256": table.sha256, "seed": seed}
-    _say(asked | {"condition": condition, "target": rule.value} | measures, _told(measures), json_=json_)
+    say(asked | {"condition": condition, "target": rule.value} | measures, _told(measures), json_=json_)
 
 
 _THRESHOLDS = ("threshold_first", "threshold_second", "threshold_card", "threshold_flips")
@@ -417,128 +407,3 @@ def _share_told(measures: dict[str, Any], share: str) -> str:
         return "no hints"
     games, pooled = measures["games_with"][share], measures["pooled"][share]
     return f"mean {measures[share]:.3f} over {games:,} games with such hints; pooled over all hints {pooled:.3f}"
-
-
-@click.group()
-def policy_group() -> None:
-    """Look at policy files and their evidence."""
-
-
-@policy_group.command("show")
-@click.argument("file")
-@click.option("--figure", type=click.Path(path_type=Path, dir_okay=False), help="Draw a heat map here (.png or .svg).")
-@as_json
-def policy_show(file: str, figure: Path | None, json_: bool) -> None:  # noqa: FBT001 - click's flag
-    """Print a table: what it does in each state.
-
-    It also gives the values, and how often each state was met in training.
-    """
-    table = QTable.named(file)
-    if figure is not None:
-        write_file(figure, _drawn().heat_map(table, policies.visits(table), _ending(figure)))
-    met = policies.visits(table)
-    rows = {state.label: {"action": table.action(state).label, "visits": met.get(state, 0)} for state in table.states}
-    document = {"policy": table.name, "sha256": table.sha256, "training": dict(table.training), "states": rows}
-    _say(document, _printed(table, met), json_=json_)
-
-
-def _printed(table: QTable, met: dict[State, int]) -> str:
-    made = str(table.training.get("command", "the file does not say how"))
-    head = [f"{table.name}  sha256 {table.sha256}", f"made by: {made}", ""]
-    head.append(
-        f"{'state':<30}{'does':<10}" + "".join(f"{action.label:>10}" for action in table.actions) + f"{'visits':>10}"
-    )
-    return "\n".join(head + [_line(table, state, met) for state in table.states])
-
-
-def _line(table: QTable, state: State, met: dict[State, int]) -> str:
-    numbers = "".join(f"{value:>10.4f}" for value in table.row(state))
-    action = table.action(state)
-    does = "-" if met and state not in met else "" if action is ActionSpec.NO_HELP else action.label
-    return f"{state.label:<30}{does:<10}{numbers}{met.get(state, 0):>10,}"
-
-
-def _ending(figure: Path) -> str:
-    ending = figure.suffix.removeprefix(".").lower()
-    if ending not in ("png", "svg"):
-        raise UserInputError(f"the figure {figure} must end in .png or .svg")
-    return ending
-
-
-def _drawn() -> Any:
-    try:
-        return import_module("kiosk.analysis.policy_figures")
-    except ImportError as error:
-        raise UserInputError('figures need matplotlib: pip install "recollect[analysis]"') from error
-
-
-@policy_group.command("compare")
-@click.argument("one")
-@click.argument("other")
-@as_json
-def policy_compare(one: str, other: str, json_: bool) -> None:  # noqa: FBT001 - click's flag
-    """Say in which states two tables act differently.
-
-    It compares the states that both have met in training.
-    """
-    tables = QTable.named(one), QTable.named(other)
-    found = policies.compare_policies(*tables)
-    differences = {state.label: [table.action(state).label for table in tables] for state in found.different}
-    document = {"compared": len(found.compared), "agreement": found.agreement, "largest_difference": found.largest}
-    text = [f"the same action in {len(found.compared) - len(found.different)} of {len(found.compared)} states"]
-    text += [f"  {state:<30}{a:<10}{b}" for state, (a, b) in differences.items()]
-    text.append(f"largest difference of a value: {found.largest:.4f}")
-    _say(document | {"different": differences}, "\n".join(text), json_=json_)
-
-
-@policy_group.command("card")
-@click.argument("file")
-@click.option("--games", type=int, default=20_000, show_default=True, help="How many games in each line.")
-@click.option("--seed", type=int, default=1, show_default=True, help="Fixes everything random.")
-@as_json
-def policy_card(file: str, games: int, seed: int, json_: bool) -> None:  # noqa: FBT001 - click's flag
-    """Measure a table with the players of the policy card.
-
-    It prints rows of Markdown.
-    """
-    table = QTable.named(file)
-    rows = []
-    with progress_bar("playing", len(evidence.ARMS), hidden=json_) as progress:
-        for number, arm in enumerate(evidence.ARMS, 1):
-            rows.append((arm, evidence.measure_arm(table, arm, games, seed)))
-            progress(number)
-    document = {arm.label: played.measures() for arm, played in rows}
-    _say(document, evidence.card_table(table, rows, games, seed), json_=json_)
-
-
-@policy_group.command("evidence")
-@click.option("--games", type=int, default=20_000, show_default=True, help="How many games in each arm.")
-@click.option(
-    "--seeds", type=click.IntRange(min=2), default=10, show_default=True, help="How many trainings of each reward."
-)
-@click.option("--seed", type=int, default=1, show_default=True, help="Fixes everything random in play.")
-@click.option(
-    "--figures", type=click.Path(path_type=Path, file_okay=False), help="Also draw the figures of the docs here."
-)
-@as_json
-def show_evidence(games: int, seeds: int, seed: int, figures: Path | None, json_: bool) -> None:  # noqa: FBT001
-    """Make every number of the page on learning again.
-
-    It says of each claim whether it holds.
-    """
-    with progress_bar("checking", evidence.STEPS, hidden=json_) as progress:
-        claims = evidence.gather_claims(games, seeds, seed, progress)
-    if figures is not None:
-        _draw_figures(figures, games, seed)
-    _say(
-        {"games": games, "seeds": seeds, "seed": seed, "claims": [asdict(claim) for claim in claims]},
-        evidence.claims_table(claims),
-        json_=json_,
-    )
-
-
-def _draw_figures(folder: Path, games: int, seed: int) -> None:
-    drawn = _drawn()
-    table = QTable.named("default")
-    write_file(folder / "policy.svg", drawn.heat_map(table, policies.visits(table), "svg"))
-    write_file(folder / "games.svg", drawn.distributions(evidence.figure_samples(games, seed), "svg"))

@@ -62,7 +62,7 @@ _GROUPS = {
     "The learning layer": {
         "train": ("kiosk.cli.learning:train_command", "Learn a table and freeze it."),
         "simulate": ("kiosk.cli.learning:simulate_command", "Play games with a simulated player under a frozen table."),
-        "policy": ("kiosk.cli.learning:policy_group", "Look at policy files and their evidence."),
+        "policy": ("kiosk.cli.policy:policy_group", "Look at policy files and their evidence."),
     },
     "Read on": {
         "docs": ("kiosk.cli.guide:docs_command", "Open the documentation in the browser, without a network."),
