@@ -22,7 +22,6 @@ from kiosk.config.look import (
     read_hours,
 )
 from kiosk.config.models import (
-    MOST_BYTES,
     MOST_CHARACTERS,
     MOST_ENTRIES,
     MOST_IN_TEXT,
@@ -35,6 +34,7 @@ from kiosk.config.models import (
     PerCharacter,
     Size,
     parse_toml,
+    read_content,
     read_text,
 )
 from kiosk.config.session import (
@@ -76,7 +76,6 @@ __all__ = [
     "CONDITION_NAME",
     "ENDINGS",
     "KNOWN_CONDITIONS",
-    "MOST_BYTES",
     "MOST_CHARACTERS",
     "MOST_ENTRIES",
     "MOST_IN_TEXT",
@@ -130,6 +129,7 @@ __all__ = [
     "pictures_in",
     "policy_path",
     "read_broker",
+    "read_content",
     "read_hours",
     "read_text",
     "shipped_names",

@@ -81,17 +81,23 @@ _LONG_NUMBER = re.compile(r"\d[\d_]{400,}")
 """Far beyond all bounds; Python refuses to read whole numbers of more than 4,300 digits."""
 
 
-def read_text(name: str, path: Path) -> str:
-    """Read a text file of a study; raises UserInputError, in which the file is called ``name``."""
+def read_content(name: str, path: Path) -> bytes:
+    """Read a file of a study; raises UserInputError, in which the file is called ``name``."""
     try:
         with open_to_read(path) as file:
             content = file.read(MOST_BYTES + 1)
-        if len(content) > MOST_BYTES:
-            raise UserInputError(f"{name} is too long: it has more than {MOST_BYTES // 1024} KiB")
-        # Some editors begin a file with a mark that is no text, and some end lines in two characters.
-        text = content.decode("utf-8-sig").replace("\r\n", "\n")
     except OSError as error:
         raise UserInputError(f"{name} cannot be read: {error.strerror}") from error
+    if len(content) > MOST_BYTES:
+        raise UserInputError(f"{name} is too long: it has more than {MOST_BYTES // 1024} KiB")
+    return content
+
+
+def read_text(name: str, path: Path) -> str:
+    """Read a text file of a study; raises UserInputError, in which the file is called ``name``."""
+    try:
+        # Some editors begin a file with a mark that is no text, and some end lines in two characters.
+        text = read_content(name, path).decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError as error:
         raise UserInputError(f"{name} is not UTF-8; save it with that encoding") from error
     if unseen := control_character(text):

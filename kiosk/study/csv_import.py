@@ -19,11 +19,11 @@ from pydantic.fields import FieldInfo
 from tomlkit.items import Array, InlineTable, Table
 
 from kiosk import UserInputError
-from kiosk.config import MOST_BYTES
+from kiosk.config import read_content
 from kiosk.errors import error_message, validation_errors, validation_messages
 from kiosk.experiment.items import BaseItem, Question
 from kiosk.experiment.questionnaire import ITEM_KINDS, ItemOrder, Questionnaire
-from kiosk.files import open_to_read, write_file
+from kiosk.files import write_file
 from kiosk.language_codes import is_right, standard
 
 _YES = dict.fromkeys(
@@ -155,11 +155,8 @@ def _lines(name: str, file: Path) -> tuple[list[list[str]], int]:
 
 def text_of_table(name: str, file: Path) -> str:
     """Return the text of a table; spreadsheet programs mark UTF-16, and UTF-8 if they are asked for it."""
+    content = read_content(name, file)
     try:
-        with open_to_read(file) as opened:
-            content = opened.read(MOST_BYTES + 1)
-        if len(content) > MOST_BYTES:
-            raise UserInputError(f"{name} is too long: it has more than {MOST_BYTES // 1024} KiB")
         if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
             return content.decode("utf-16")
         try:
@@ -167,8 +164,6 @@ def text_of_table(name: str, file: Path) -> str:
         except UnicodeDecodeError:
             # What spreadsheet programs on Windows write in the West when they are not asked for UTF-8.
             return content.decode("cp1252")
-    except OSError as error:
-        raise UserInputError(f"{name} cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise UserInputError(f"{name} is neither UTF-8 nor Windows-1252; save it as CSV UTF-8") from error
 

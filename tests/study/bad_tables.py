@@ -20,6 +20,7 @@ def cell(old: str, new: str) -> str:
 TABLES: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
     # The file
     "empty": ("", ("{table}: its first line must name the columns, with commas or semicolons between them",)),
+    "too long": ("x" * (2**20 + 1), ("{table} is too long: it has more than 1024 KiB",)),
     "nothing but text": (
         "Dear all,",
         (
