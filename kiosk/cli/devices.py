@@ -31,7 +31,14 @@ from kiosk.robots.registry import create_robot
 from kiosk.robots.sound_device import Player, create_player
 from kiosk.robots.tts_engines import SpeechEngine, create_engine
 from kiosk.robots.tts_worker import SpeechSource
-from kiosk.robots.voice_packs import VoicePack, cache_folder, import_recordings, recording_name, render_pack
+from kiosk.robots.voice_packs import (
+    PackLabel,
+    VoicePack,
+    cache_folder,
+    import_recordings,
+    recording_name,
+    render_pack,
+)
 from kiosk.study.loader import read_study
 from kiosk.units import MS_PER_SECOND
 
@@ -357,7 +364,7 @@ def import_command(
     'voice script' numbers their names. They are trimmed and levelled.
     """
     texts = spoken_texts(_plan(study, language))
-    pack = import_recordings(recordings, out, language=language, speaker=speaker, licence=licence, texts=texts)
+    pack = import_recordings(recordings, out, texts, PackLabel.of_person(language, speaker, licence))
     missing = len(pack.missing(texts))
     if as_json:
         made = {"folder": str(out), "clips": len(pack.clips), "missing": missing, "sha256": pack.sha256}

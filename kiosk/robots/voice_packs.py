@@ -51,6 +51,20 @@ def cache_folder(language: str, engine: str, rate: int) -> Path:
 
 
 @dataclass(frozen=True)
+class PackLabel:
+    """What a manifest says of all its clips: their language, the engine or person who spoke them, and the licence."""
+
+    language: str
+    spoken_by: Mapping[str, str]
+    licence: str
+
+    @classmethod
+    def of_person(cls, language: str, speaker: str, licence: str) -> PackLabel:
+        """Return the label of clips that a person recorded."""
+        return cls(language, {"engine": "person", "engine_version": "", "voice": speaker}, licence)
+
+
+@dataclass(frozen=True)
 class VoicePack:
     """A pack as its manifest describes it; ``sha256`` is over all its clips and who spoke them."""
 
@@ -156,7 +170,7 @@ class VoicePack:
             return "is no WAV file"
         if hashlib.sha256(content).hexdigest() != told["sha256"]:
             return "was changed since the pack was made"
-        return clip_fault(clip)
+        return sound_fault(clip) or loudness_fault(clip)
 
 
 def find_pack(settings: VoiceConfig, language: str) -> VoicePack | None:
@@ -201,15 +215,19 @@ class PackClips:
         return SpokenClip(clip.to_bytes(), clip.duration_ms, pack.spoken_by | {"pack": pack.sha256})
 
 
-def clip_fault(clip: Clip) -> str | None:
-    """Say what is wrong with the sound of a clip; None if nothing is."""
-    loudness = loudness_lufs(clip)
-    if not np.isfinite(loudness):
+def sound_fault(clip: Clip) -> str | None:
+    """Say what makes a recording useless, silence or clipping; None if nothing does."""
+    if not np.isfinite(loudness_lufs(clip)):
         return "is silent"
     full = np.abs(clip.samples.astype(int)) >= 2**15 - 1
     if np.convolve(full, np.ones(_CLIPPED), "valid").max(initial=0) >= _CLIPPED:
         return "is clipped: record it with a lower level"
-    off = loudness - TARGET_LUFS
+    return None
+
+
+def loudness_fault(clip: Clip) -> str | None:
+    """Say how far the loudness of a clip is from that of all clips; None if it is near enough."""
+    off = loudness_lufs(clip) - TARGET_LUFS
     if abs(off) > LOUDNESS_TOLERANCE:
         return f"is {abs(off):.1f} LU {'louder' if off > 0 else 'softer'} than it should be"
     return None
@@ -240,15 +258,12 @@ def render_pack(engine: SpeechEngine, language: str, texts: Sequence[str], folde
                 yield text, engine.render(text)
             tell(number)
 
-    return write_pack(folder, language=language, spoken_by=by, licence=engine.licence, sounds=clips(), kept=kept)
+    return write_pack(folder, PackLabel(language, by, engine.licence), clips(), kept)
 
 
-def write_pack(  # noqa: PLR0913 - a manifest has as many fields as it has
+def write_pack(
     folder: Path,
-    *,
-    language: str,
-    spoken_by: Mapping[str, str],
-    licence: str,
+    label: PackLabel,
     sounds: Iterable[tuple[str, Clip]],
     kept: Mapping[str, Mapping[str, Any]] | None = None,
 ) -> VoicePack:
@@ -260,19 +275,19 @@ def write_pack(  # noqa: PLR0913 - a manifest has as many fields as it has
         for text, sound in sounds:
             clip = levelled(trimmed(sound))
             rate = clip.rate
-            key = key_of(language, text)
+            key = key_of(label.language, text)
             clip.write(folder / f"{key}.wav")
             digest = hashlib.sha256((folder / f"{key}.wav").read_bytes()).hexdigest()
             clips[key] = {"text": text, "sha256": digest, "duration_ms": clip.duration_ms}
     finally:
         rate = rate or next((Clip.read(folder / f"{key}.wav").rate for key in clips), 0)
         told = {
-            "language": language,
-            "spoken_by": dict(spoken_by),
-            "licence": licence,
+            "language": label.language,
+            "spoken_by": dict(label.spoken_by),
+            "licence": label.licence,
             "rate": rate,
             "loudness_lufs": TARGET_LUFS,
-            "sha256": _hash(spoken_by, clips),
+            "sha256": _hash(label.spoken_by, clips),
             "clips": clips,
         }
         written = folder / f"{MANIFEST}.new"
@@ -286,9 +301,7 @@ def recording_name(number: int) -> str:
     return f"{number:03}.wav"
 
 
-def import_recordings(  # noqa: PLR0913 - as above
-    recordings: Path, folder: Path, *, language: str, speaker: str, licence: str, texts: Sequence[str]
-) -> VoicePack:
+def import_recordings(recordings: Path, folder: Path, texts: Sequence[str], label: PackLabel) -> VoicePack:
     """Make a pack of a person's recordings, numbered as the script is.
 
     Raises UserInputError for a recording that is none, silent or clipped; nothing is written then.
@@ -303,8 +316,8 @@ def import_recordings(  # noqa: PLR0913 - as above
         except (OSError, wave.Error, EOFError):
             faults.append(f"{file} is no WAV file")
             continue
-        fault = clip_fault(clip)
-        if fault and not fault.startswith(f"is {fault.split()[1]} LU"):
+        # How loud it is does not matter: all recordings are levelled.
+        if fault := sound_fault(clip):
             faults.append(f"{file} {fault}")
         sounds.append((text, clip))
     if not sounds and not faults:
@@ -312,6 +325,4 @@ def import_recordings(  # noqa: PLR0913 - as above
     if faults:
         raise UserInputError(*faults)
     rate = max(clip.rate for _, clip in sounds)
-    by = {"engine": "person", "engine_version": "", "voice": speaker}
-    alike = [(text, clip.at_rate(rate)) for text, clip in sounds]
-    return write_pack(folder, language=language, spoken_by=by, licence=licence, sounds=alike)
+    return write_pack(folder, label, [(text, clip.at_rate(rate)) for text, clip in sounds])

@@ -19,16 +19,21 @@ from kiosk.robots.voice_packs import (
     MANIFEST,
     PAUSE_MS,
     PackClips,
+    PackLabel,
     VoicePack,
     find_pack,
     import_recordings,
     key_of,
+    loudness_fault,
     render_pack,
+    sound_fault,
 )
 from kiosk.study.loader import read_study
 
 RATE = 16_000
 REASON, PLACE = "You have seen both owl cards, each of them once.", "Try the card in row 2, column 3."
+
+BY_A_PERSON = PackLabel.of_person("en", "A", "own")
 
 
 def tone(seconds: float = 0.5, level: float = 0.1, hertz: float = 300) -> Clip:
@@ -147,7 +152,7 @@ def test_a_pack_is_rendered_once_and_its_hash_depends_on_its_clips(pack: VoicePa
     assert render_pack(engine, "en", [REASON], pack.folder, lambda _: None).sha256 == more.sha256
 
 
-def test_clips_that_were_changed_silenced_clipped_or_lost_are_found(pack: VoicePack) -> None:
+def test_clips_that_were_changed_or_lost_are_found(pack: VoicePack) -> None:
     assert list(pack.faults()) == []
     (reason, place) = (pack.path(key_of("en", text)) for text in (REASON, PLACE))
     tone(1, 0.02).write(reason)
@@ -157,6 +162,16 @@ def test_clips_that_were_changed_silenced_clipped_or_lost_are_found(pack: VoiceP
     assert "was changed since the pack was made" in faults[0]
     assert "cannot be read" in faults[1]
     assert pack.find(PLACE) is None
+
+
+def test_a_sound_is_silent_or_clipped_or_louder_or_softer_than_all_others() -> None:
+    silent, clipped = Clip(np.zeros(RATE, np.int16), RATE), Clip.of(5 * tone(1, 0.5).values, RATE)
+    well, soft, loud = levelled(tone(1)), tone(1, 0.01), tone(1, 0.9)
+    assert [sound_fault(each) for each in (silent, well, soft, loud)] == ["is silent", None, None, None]
+    assert "is clipped" in str(sound_fault(clipped))
+    assert loudness_fault(well) is None
+    assert str(loudness_fault(soft)).endswith("LU softer than it should be")
+    assert str(loudness_fault(loud)).endswith("LU louder than it should be")
 
 
 @pytest.mark.parametrize("content", [None, "{}", "[]", '{"spoken_by": 1}', "not JSON", "[" * 100_000])
@@ -170,8 +185,7 @@ def test_a_folder_that_is_no_pack_is_refused_by_name(tmp_path: Path, content: st
 def test_a_persons_recordings_become_a_pack_of_one_loudness(tmp_path: Path) -> None:
     tone(1, 0.02).write(tmp_path / "001.wav")
     tone(1, 0.6).write(tmp_path / "002.wav")
-    given = {"language": "en", "speaker": "A", "licence": "own", "texts": [REASON, PLACE, "Not recorded."]}
-    made = import_recordings(tmp_path, tmp_path / "pack", **given)  # type: ignore[arg-type]
+    made = import_recordings(tmp_path, tmp_path / "pack", [REASON, PLACE, "Not recorded."], BY_A_PERSON)
     assert list(made.faults()) == []
     assert made.spoken_by == {"engine": "person", "engine_version": "", "voice": "A"}
     assert made.missing([REASON, PLACE, "Not recorded."]) == ("Not recorded.",)
@@ -182,9 +196,7 @@ def test_recordings_that_are_silent_clipped_or_none_are_refused_and_nothing_is_w
     Clip.of(5 * tone(1, 0.5).values, RATE).write(tmp_path / "002.wav")
     (tmp_path / "003.wav").write_text("none")
     with pytest.raises(UserInputError) as refusal:
-        import_recordings(
-            tmp_path, tmp_path / "pack", language="en", speaker="A", licence="own", texts=["One.", "Two.", "Three."]
-        )
+        import_recordings(tmp_path, tmp_path / "pack", ["One.", "Two.", "Three."], BY_A_PERSON)
     assert [sentence.split(".wav ")[1].split(":")[0] for sentence in refusal.value.sentences] == [
         "is silent",
         "is clipped",
