@@ -80,6 +80,14 @@ def find_template(name: str) -> Template:
     return there[name]
 
 
+def _where_it_is(language: str) -> str:
+    """Return which template brings a language, or where to read how one is added."""
+    for template in templates().values():
+        if language in template.own_languages:
+            return f"the template {template.name!r} has it"
+    return "docs/how-to/add-a-language.md says how to add one"
+
+
 @dataclass(frozen=True)
 class NewStudy:
     """What is asked before a study is made; ``robot`` are the keys of its section [robot]."""
@@ -93,13 +101,17 @@ class NewStudy:
     def files(self) -> dict[str, bytes]:
         """Return all files of the study's folder by their paths in it.
 
-        Raises UserInputError for a language that is not shipped, and for answers that no study file can have.
+        Raises UserInputError for a language that the template lacks, and for answers that no study file can have.
         """
-        unknown = [language for language in self.languages if language not in self.template.sentences]
-        if unknown or not self.languages:
-            there = ", ".join(self.template.sentences)
-            what = f"the language {unknown[0]!r} is not shipped" if unknown else "a study has at least one language"
-            raise UserInputError(f"{what} (shipped are {there}); docs/how-to/add-a-language.md says how to add one")
+        there = self.template.sentences
+        if not self.languages:
+            raise UserInputError(f"a study has at least one language; there are {', '.join(there)}")
+        for language in self.languages:
+            if language not in there:
+                raise UserInputError(
+                    f"the template {self.template.name!r} has no language {language!r} (it has {', '.join(there)}); "
+                    f"{_where_it_is(language)}"
+                )
         settings = self._settings()
         return {
             STUDY_FILE: as_short_study_file(settings, _SHOWN, _head(self.template)).encode(),

@@ -256,7 +256,7 @@ def test_a_new_study_is_made_and_is_right(tmp_path: Path, recollect: Recollect) 
     ("options", "why"),
     [
         (("--template", "papre"), "there is no template 'papre'; there are "),
-        (("--language", "de"), "the language 'de' is not shipped"),
+        (("--language", "de"), "the template 'two-languages' has it"),
         (("--robot", "nao"), "there is no robot 'nao'; there are "),
         (("--title", "x" * 600), "title must have at most 500 characters"),
     ],

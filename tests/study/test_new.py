@@ -96,7 +96,8 @@ def test_the_answers_stand_in_the_study_file(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("more", "why"),
     [
-        ({"languages": ("de",)}, "the language 'de' is not shipped (shipped are en, es, it)"),
+        ({"languages": ("de",)}, "has no language 'de' (it has en, es, it); the template 'two-languages' has it"),
+        ({"languages": ("nl",)}, "has no language 'nl' (it has en, es, it); docs/how-to/add-a-language.md says how"),
         ({"languages": ()}, "a study has at least one language"),
         ({"title": "x" * 501}, "title must have at most 500 characters"),
     ],
