@@ -78,7 +78,7 @@ class Load:
 def machine_check(load: Load) -> Iterator[CheckResult]:
     """Whether the kiosk will have the memory and the time that it needs."""
     processors = "1 processor" if load.processors == 1 else f"{load.processors} processors"
-    words = f"{load.free_mib:,} MiB of memory are free; {processors}, {load.waiting:.1f} programs at work"
+    words = f"{load.free_mib:,} MiB of memory are free; {processors} with a load of {load.waiting:.1f}"
     if load.free_mib < LEAST_MIB:
         yield CheckResult.warning(MACHINE, words, f"end other programs: the kiosk needs {LEAST_MIB} MiB")
     elif load.waiting > BUSY * load.processors:
@@ -477,5 +477,5 @@ def show(found: tuple[CheckResult, ...]) -> None:
 
 def _verdict(bad: int, warnings: int, *, ready: bool) -> str:
     if not ready:
-        return f"No session can be held before what is marked {_MARKS[Severity.ERROR]} is mended ({bad})."
-    return f"A session can be held; to see to: {warnings or 'nothing'}."
+        return f"No session can be held until every {_MARKS[Severity.ERROR]} is fixed ({bad})."
+    return f"A session can be held; warnings: {warnings or 'none'}."

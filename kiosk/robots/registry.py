@@ -72,7 +72,7 @@ def check_robot(settings: Settings) -> None:
 SOUND = "sound"
 
 _UNHEARD = "sentences are shown, and nothing is heard"
-_LOUDSPEAKER = "plug in a loudspeaker, choose it in the system's settings or as voice.device, and play it any sound"
+_LOUDSPEAKER = "plug in a loudspeaker, choose it in the system's settings or as voice.device, and play a sound on it"
 
 
 def sound_check(command: Sequence[str], *, busy: bool, told: Health | None = None) -> Iterator[CheckResult]:

@@ -311,7 +311,7 @@ def study_file_check(study: StudyConfig) -> Iterator[CheckResult]:
     longest = max(round(expected_minutes(plan)) for plan in study.plans)
     yield CheckResult.ok(FILE, f"{study.settings.title!r}, about {longest} minutes, {study.sha256[:SHORT_SHA]}")
     for caution in study_warnings(study):
-        yield CheckResult.warning(FILE, caution, "change the study file, if it is not meant so")
+        yield CheckResult.warning(FILE, caution, "change the study, if this is not intended")
 
 
 def policy_check(study: StudyConfig) -> Iterator[CheckResult]:

@@ -30,11 +30,11 @@ _HEAD = """\
 _PAGE = """\
 # The study file: every key
 
-A study file is TOML. Whatever it leaves out is as in the column *without it*, which follows the study wherever it says
-anything; so an empty file is the study. `recollect study new DIR` writes a folder to begin with. `recollect study
-reference --toml` prints a file with every key, and `recollect study check FILE` reads a file with everything that it
-names. A name with a slash or an ending is a path that starts from the study file's own folder. Any other name is that
-of something shipped in `assets/` or `policies/` or, if nothing shipped has it, of something in the study file's folder.
+A study file is TOML. A key that it leaves out has its default, so an empty file is the study of the paper.
+`recollect study new DIR` writes a folder with a whole study, `recollect study reference --toml` prints a file with
+every key, and `recollect study check FILE` checks a file with everything that it names. A name with a slash or an
+extension is a path from the study file's folder. Any other name is first looked up in `assets/` and `policies/`, and
+then in the study file's folder.
 
 This page is printed by `recollect study reference`; change the declarations in `kiosk/config`, not the page.
 """
@@ -83,7 +83,7 @@ def as_page(model: type[Settings]) -> str:
             continue
         written.add(type(settings))
         heading = f"## [{section}]\n\n{_described(type(settings))}" if section else "## Above all sections"
-        parts.append(f"\n{heading}\n\n| key | what it sets | it may be | without it |\n|---|---|---|---|\n")
+        parts.append(f"\n{heading}\n\n| key | what it sets | values | default |\n|---|---|---|---|\n")
         parts += (_row(key, field, getattr(settings, key)) for key, field in _keys(type(settings)))
     return "".join(parts)
 

@@ -127,8 +127,8 @@ def test_what_cannot_be_used_is_refused_with_its_name(
 @pytest.mark.parametrize(
     ("results", "verdict"),
     [
-        ([GOOD], (0, "to see to: nothing")),
-        ([GOOD, WARNING, WARNING], (0, "to see to: 2")),
+        ([GOOD], (0, "warnings: none")),
+        ([GOOD, WARNING, WARNING], (0, "warnings: 2")),
         ([GOOD, WARNING, BAD], (1, "No session can be held")),
     ],
 )
