@@ -205,3 +205,17 @@ def test_few_checks_stand_beside_the_counts_and_the_sessions_have_the_whole_widt
     (counts,), (sessions,) = (of_kind(window, f"Panel{name}") for name in ("Counts", "Sessions"))
     assert sessions.mapToScene(QPointF()).x() == counts.mapToScene(QPointF()).x()
     assert sessions.width() == counts.width()
+
+
+@pytest.mark.parametrize("size", [WIDE, UPRIGHT])
+def test_the_panel_stays_as_it_is_while_the_visitors_language_is_written_from_right_to_left(
+    window: Window, size: tuple[int, int]
+) -> None:
+    places = []
+    for language in ("ar", "en"):
+        window.screens.kiosk.begin((language,), language, Settings().consent)
+        assert window.screens.kiosk.property("mirrored") is (language == "ar")
+        show(window, "en", size)
+        (panel,) = of_kind(window, "PanelView")
+        places.append([(each.mapToScene(QPointF()), each.width()) for each in items(panel)])
+    assert places[0] == places[1]

@@ -32,7 +32,7 @@ PanelSection {
     // The rows of an upright page without a main action, and how high they are without the spread.
     readonly property int lines: (underWay ? 2 : 1) * (pairs.fits ? 1 : 2) + (breaks.visible ? 1 : 0) + (lower.halves ? 0 : 1)
     readonly property real bare: frame + lines * lowest + (lines - 1) * space + lower.topPadding + (breaks.visible ? breaks.heading + breaks.spacing : 0) + (underWay && !lower.halves ? end.above : 0)
-    readonly property real lowest: (wide || full ? 80 : 90) * Theme.unit
+    readonly property real lowest: (wide && mains > 0 ? 76 : wide || full ? 80 : 90) * Theme.unit
     readonly property real share: wide && least > 0 && normal ? (least - fixed) / (others + 1.25 * mains) : 0
     readonly property real tall: Math.floor(Math.max(lowest + spread, Math.min(128 * Theme.unit, share)))
     readonly property real mainTall: Math.floor((wide ? 1.25 : 1.1) * tall)
@@ -95,7 +95,7 @@ PanelSection {
             least: actions.tall
             width: pairs.each
             horizontalPadding: actions.edge
-            rightPadding: actions.edge - (Theme.mirrored ? 0 : 6 * Theme.unit)
+            rightPadding: actions.edge - 6 * Theme.unit
             font.pixelSize: actions.lettering
             words: actions.words["console-stay-paused"]
             whenOn: actions.words["console-switch-on"]

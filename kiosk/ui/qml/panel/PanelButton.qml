@@ -61,7 +61,7 @@ Button {
         }
         Drawing {
             visible: button.drawing !== ""
-            x: Theme.across((button.sign - width) / 2, width, parts.width)
+            x: (button.sign - width) / 2
             y: (parts.height - height) / 2
             scale: button.sign / 24
             path: button.drawing
@@ -69,7 +69,7 @@ Button {
         }
         Text {
             id: letters
-            x: Theme.across(parts.before, width, parts.width)
+            x: parts.before
             y: (parts.height - height) / 2
             width: parts.width - parts.before
             textFormat: Text.PlainText

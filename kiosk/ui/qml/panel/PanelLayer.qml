@@ -23,6 +23,7 @@ Item {
             onActivated: desk.experimenter.press(shortcut.modelData.action)
         }
     }
+    // It speaks the experimenter's language, and stays as it is while a visitor's is written from right to left.
     Loader {
         id: panel
         anchors.fill: parent

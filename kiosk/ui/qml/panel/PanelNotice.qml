@@ -45,15 +45,13 @@ Rectangle {
 
     Rectangle {
         readonly property real line: 2 * Theme.unit
-        x: Theme.across(notice.bar, width, parent.width)
+        x: notice.bar
         y: line
         width: parent.width - notice.bar - line
         height: parent.height - 2 * line
         radius: notice.radius - line
-        topLeftRadius: Theme.mirrored ? radius : 0
-        bottomLeftRadius: Theme.mirrored ? radius : 0
-        topRightRadius: Theme.mirrored ? 0 : radius
-        bottomRightRadius: Theme.mirrored ? 0 : radius
+        topLeftRadius: 0
+        bottomLeftRadius: 0
         color: Theme.cautious
     }
     FontMetrics {

@@ -40,7 +40,7 @@ PanelButton {
             readonly property real after: Math.min(14 * Theme.unit, spare)
             readonly property real room: visible ? width + after : 0
             visible: spare >= 4 * Theme.unit
-            x: Theme.across(parts.width - track.width - after - width, width, parts.width)
+            x: parts.width - track.width - after - width
             y: (parts.height - height) / 2
             width: Math.ceil(0.92 * Math.max(parts.wide(bar.whenOn, bar.font), parts.wide(bar.whenOff, bar.font)))
             text: bar.on ? bar.whenOn : bar.whenOff
@@ -51,7 +51,7 @@ PanelButton {
         }
         Drawing {
             visible: bar.drawing !== ""
-            x: Theme.across((bar.sign - width) / 2, width, parts.width)
+            x: (bar.sign - width) / 2
             y: (parts.height - height) / 2
             scale: bar.sign / 24
             path: bar.drawing
@@ -59,7 +59,7 @@ PanelButton {
         }
         Balanced {
             id: letters
-            x: Theme.across(parts.before, width, parts.width)
+            x: parts.before
             y: (parts.height - height) / 2
             width: parts.width - parts.before - bar.between - state.room - track.width
             text: bar.words
@@ -73,7 +73,7 @@ PanelButton {
         // The knob says which it is without a colour.
         Rectangle {
             id: track
-            x: Theme.across(parent.width - width, width, parent.width)
+            x: parent.width - width
             y: (parent.height - height) / 2
             width: 1.9 * bar.knob + 12 * Theme.unit
             height: bar.knob + 12 * Theme.unit
@@ -82,7 +82,7 @@ PanelButton {
             border { color: bar.on ? Theme.white : Theme.faintInk; width: 3 * Theme.unit }
             Rectangle {
                 readonly property real edge: (track.height - height) / 2
-                x: Theme.across(bar.on ? track.width - edge - width : edge, width, track.width)
+                x: bar.on ? track.width - edge - width : edge
                 y: edge
                 width: bar.on ? bar.knob : 0.8 * bar.knob
                 height: width

@@ -155,8 +155,7 @@ PanelSection {
         visible: table.rows.length > 0
         spacing: 0.4 * table.apart
         Row {
-            leftPadding: Theme.mirrored ? 0 : table.before
-            rightPadding: Theme.mirrored ? table.before : 0
+            leftPadding: table.before
             Repeater {
                 model: table.heads
                 delegate: Place {

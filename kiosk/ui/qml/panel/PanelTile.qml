@@ -41,7 +41,7 @@ Item {
                 id: behind
                 readonly property real gap: 0.7 * tile.lettering
                 visible: tile.first !== "" && value.implicitWidth + gap + implicitWidth <= tile.width
-                x: Theme.across(value.implicitWidth + gap, width, value.width)
+                x: value.implicitWidth + gap
                 y: value.baselineOffset - baselineOffset
                 text: tile.line
                 font.pixelSize: tile.lettering
