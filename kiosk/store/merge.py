@@ -21,8 +21,8 @@ from kiosk.store.database import FILE, in_use, open_for_reading, open_for_writin
 from kiosk.store.listing import participant_name
 from kiosk.store.maintenance import Progress
 from kiosk.store.participants import checked_site
-from kiosk.store.recorder import insert
 from kiosk.store.remnants import clear_remnants
+from kiosk.store.rows import insert
 from kiosk.store.summaries import fill_summaries
 from kiosk.store.tombstones import add_tombstones, sessions_of, withdrawn_hashes
 from kiosk.store.verify import check_foreign

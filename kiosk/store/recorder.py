@@ -1,4 +1,4 @@
-"""How rows are written, and how a session that was cut off ends; callers have a transaction open."""
+"""The recorder: writes sessions, allocation lists and what happens at the booth into the database of a data folder."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import hashlib
 import json
 import logging
 import sqlite3
-import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime
@@ -17,14 +16,13 @@ from typing import Any, Self
 
 from kiosk import StorageError, UserInputError, __version__
 from kiosk.experiment.condition import AllocationSlot, Condition
-from kiosk.experiment.event_records import to_record
-from kiosk.experiment.events import Event, SessionEnded, WorldEvent
+from kiosk.experiment.events import Event
 from kiosk.experiment.experimenter import AuditEvent
-from kiosk.experiment.outcomes import AllocationSource, NotRecordedReason, SessionKind, Status
+from kiosk.experiment.outcomes import AllocationSource, NotRecordedReason, SessionKind
 from kiosk.experiment.questionnaire import QUESTIONNAIRES
 from kiosk.experiment.session_config import SessionConfig, Translation
 from kiosk.lazy_dataclass import dataclass
-from kiosk.store.chain import Head, HeadsFile, first_hash, last_hash, next_hash
+from kiosk.store.chain import Head, HeadsFile, first_hash, last_hash
 from kiosk.store.codes import keys_of, session_with_hash, shown_code
 from kiosk.store.connecting import LOGS, failure, primary_code, reason
 from kiosk.store.database import BUSY, FILE, lock_folder, open_for_writing
@@ -39,98 +37,19 @@ from kiosk.store.participants import (
     returning_visitor,
 )
 from kiosk.store.remnants import clear_end
+from kiosk.store.rows import (
+    INSERT_EVENT,
+    EventRow,
+    event_rows,
+    insert,
+    insert_audit_event,
+    interrupted_at,
+    mark_interrupted,
+)
 from kiosk.store.summaries import go_on
 from kiosk.store.tombstones import FILE as LIST
 from kiosk.store.tombstones import add_tombstones, is_list_there
 from kiosk.store.withdrawal import bury, finish_cut_off, is_unfinished, note_intention
-
-
-def insert(connection: sqlite3.Connection, table: str, row: Mapping[str, str | int | bytes | None]) -> int:
-    """Write one row, told by its columns' names; returns its number."""
-    marks = ", ".join("?" * len(row))
-    columns = ", ".join(row)
-    cursor = connection.execute(
-        f"INSERT INTO {table} ({columns}) VALUES ({marks})",  # noqa: S608 - the names are ours
-        tuple(row.values()),
-    )
-    return cursor.lastrowid or 0
-
-
-EventRow = tuple[int, int, int, str, str, str, int, bytes]
-"""The columns of an event, in the order of the table; the last one is its hash."""
-
-
-def event_rows(session: int, first_seq: int, events: Sequence[Event], before: bytes) -> list[EventRow]:
-    """Return the rows of a session's next events; ``before`` is the hash that the first of them is chained to."""
-    written_ms = now_ms()
-    rows: list[EventRow] = []
-    for seq, event in enumerate(events, first_seq):
-        origin, (kind, payload) = _origin(event), _type_and_payload(event)
-        before = next_hash(before, (seq, event.at_ms, origin, kind, written_ms, payload))
-        rows.append((session, seq, event.at_ms, origin, kind, payload, written_ms, before))
-    return rows
-
-
-def mark_interrupted(connection: sqlite3.Connection) -> tuple[int, ...]:
-    """End every session whose last event is not its end, where that event left it; returns their numbers."""
-    open_sessions = connection.execute(
-        """
-        SELECT under_way.session, last.seq, last.at_ms, last.hash FROM session_summary AS under_way
-        JOIN event AS last ON last.session = under_way.session
-        AND last.seq = (SELECT max(seq) FROM event WHERE event.session = under_way.session)
-        WHERE under_way.status IS NULL ORDER BY under_way.session
-        """
-    ).fetchall()
-    for session, seq, at_ms, before in open_sessions:
-        kind, payload = _type_and_payload(SessionEnded(at_ms=at_ms, status=Status.INTERRUPTED))
-        written_ms = now_ms()
-        sha256 = next_hash(before, (seq + 1, at_ms, "recovery", kind, written_ms, payload))
-        row = (session, seq + 1, at_ms, "recovery", kind, payload, written_ms, sha256)
-        connection.execute(_INSERT_EVENT, row)
-    return tuple(session for session, *_ in open_sessions)
-
-
-def interrupted_at(connection: sqlite3.Connection, session: int) -> int:
-    """Return the seq of the end of a session that was interrupted; raises UserInputError if it was not."""
-    last = connection.execute(
-        "SELECT seq, type, payload FROM event WHERE session = ? ORDER BY seq DESC LIMIT 1", (session,)
-    ).fetchone()
-    if last is None:
-        raise UserInputError(f"there is no session {session}")
-    seq, kind, payload = last
-    if kind != SessionEnded.__name__ or json.loads(payload)["status"] != Status.INTERRUPTED.value:
-        raise UserInputError(f"session {session} was not interrupted, so it cannot be gone on with")
-    return int(seq)
-
-
-def json_text(record: Mapping[str, Any]) -> str:
-    """Return a record as it stands in the database."""
-    text = json.dumps(record, ensure_ascii=False, separators=(",", ":"))
-    # What the system says may hold lone surrogates, which no file can; written out, they are JSON's own escapes.
-    return text.encode("utf-8", "backslashreplace").decode()
-
-
-def now_ms() -> int:
-    """Return the wall's clock, in ms since 1970; it may be set back, so nothing is ever sorted by it."""
-    return time.time_ns() // 1_000_000
-
-
-_INSERT_EVENT = (
-    "INSERT INTO event (session, seq, at_ms, origin, type, payload, wall_ms, hash) VALUES (?, ?, ?, ?, ?, ?, ?, ?)"
-)
-
-
-def _origin(event: Event) -> str:
-    return "world" if isinstance(event, WorldEvent) else "session"
-
-
-def _type_and_payload(event: Event) -> tuple[str, str]:
-    """Return an event's class, and its own fields as JSON; the time and the class have columns of their own."""
-    record = to_record(event)
-    kind = str(record.pop("type"))
-    del record["at_ms"]
-    return kind, json_text(record)
-
 
 _log = logging.getLogger(__name__)
 
@@ -197,7 +116,7 @@ class Recorder:
             with self.retrying(OPENING_WAIT_MS), self._transaction():
                 self.recovered = mark_interrupted(self._connection)
                 for note, payload in found:
-                    self._note(note.value, payload)
+                    insert_audit_event(self._connection, note.value, payload)
             self._keep_list()
         except StorageError as error:
             self._close()
@@ -266,7 +185,7 @@ class Recorder:
                 mark_interrupted(self._connection)
                 session = self._insert_session(provenance)
                 rows = event_rows(session, 1, events, first_hash(self._connection, session))
-                self._connection.executemany(_INSERT_EVENT, rows)
+                self._connection.executemany(INSERT_EVENT, rows)
                 participant = enrol(self._connection, session, provenance.returning)
             self._session = session
             self._resumed = False
@@ -311,7 +230,7 @@ class Recorder:
             with self._transaction():
                 if self._resumed:
                     go_on(self._connection, self._session)
-                self._connection.executemany(_INSERT_EVENT, rows)
+                self._connection.executemany(INSERT_EVENT, rows)
             self._resumed = False
             self._written(rows)
 
@@ -341,7 +260,7 @@ class Recorder:
             with self._transaction():
                 note_intention(self._connection, self.folder, self._session)
                 self._connection.execute("PRAGMA secure_delete = ON")
-                self._connection.executemany(_INSERT_EVENT, rows)
+                self._connection.executemany(INSERT_EVENT, rows)
                 bury(self._connection, self._session)
             self._written(rows)
 
@@ -358,15 +277,7 @@ class Recorder:
         ``wall_ms`` is when that was, in ms since 1970; by default now.
         """
         with self._transaction():
-            self._note(kind, payload, wall_ms)
-
-    def _note(self, kind: str, payload: Mapping[str, Any], wall_ms: int | None = None) -> None:
-        row: dict[str, str | int | None] = {
-            "wall_ms": now_ms() if wall_ms is None else wall_ms,
-            "type": kind,
-            "payload": json_text(payload),
-        }
-        insert(self._connection, "audit_event", row)
+            insert_audit_event(self._connection, kind, payload, wall_ms)
 
     def _open(self) -> tuple[sqlite3.Connection, list[tuple[AuditEvent, dict[str, Any]]]]:
         """Open the database; returns also what the experimenter has to know of people who withdrew."""

@@ -178,7 +178,7 @@ def test_a_session_over_a_change_of_the_clock_has_the_right_times_lengths_and_da
     took = timedelta(milliseconds=driver.events[-1].at_ms - driver.events[0].at_ms)
     assert timedelta(minutes=2) < took < timedelta(minutes=12)
     monkeypatch.setattr("kiosk.store.recorder.datetime", Clock)
-    monkeypatch.setattr("kiosk.store.recorder.now_ms", lambda: int(Clock.now(UTC).timestamp() * 1000))
+    monkeypatch.setattr("kiosk.store.rows.now_ms", lambda: int(Clock.now(UTC).timestamp() * 1000))
     store(tmp_path / "data", [(driver, 1)])
     day = datetime.fromisoformat(began).date()
     (session,) = read_day_report(tmp_path / "data", day, PEOPLE, ZoneInfo("Europe/Rome")).sessions
