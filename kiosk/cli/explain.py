@@ -21,10 +21,10 @@ from pydantic_core import ErrorDetails
 from kiosk import UserInputError
 from kiosk.assistance.assistant import Explanation, game_after
 from kiosk.assistance.hesitation import Wait
+from kiosk.assistance.hint_sentences import ReasonedSentences, Wording
 from kiosk.assistance.memory_model import MemoryEstimate
 from kiosk.assistance.mentaliser import Hint, HintReason, Mentaliser, TargetRule
 from kiosk.assistance.policy import PRAISE, ActionSpec, FlipInMove, MoveOutcome, QTable, find_action, said_once
-from kiosk.assistance.wording import ReasonedSentences, Wording
 from kiosk.cli.options import json_option, read_catalogue, sessions_data_option, shipped_languages
 from kiosk.cli.terminal import one_line, tell_caution, tell_line
 from kiosk.config import ASSETS, AssistanceConfig, Game, pictures_in

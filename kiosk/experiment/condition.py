@@ -9,9 +9,9 @@ from random import Random
 from typing import ClassVar, Literal, Protocol
 
 from kiosk import UserInputError
+from kiosk.assistance.hint_sentences import NoSentences, PlainSentences, ReasonedSentences, ReminderSentences, Wording
 from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
 from kiosk.assistance.policy import ActionSpec
-from kiosk.assistance.wording import NoSentences, PlainSentences, ReasonedSentences, ReminderSentences, Wording
 from kiosk.config import KNOWN_CONDITIONS, ConditionConfig
 from kiosk.lazy_dataclass import dataclass
 

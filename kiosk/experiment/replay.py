@@ -9,6 +9,7 @@ from functools import partial
 from random import Random
 
 from kiosk import UserInputError
+from kiosk.assistance.adaptation import table_before_flip
 from kiosk.assistance.assistant import (
     BY_TABLE,
     Decision,
@@ -19,14 +20,14 @@ from kiosk.assistance.assistant import (
     explain_decision,
     game_after,
     memory_before_flip,
-    table_before_flip,
 )
 from kiosk.assistance.comments import Comment
 from kiosk.assistance.hesitation import Wait
+from kiosk.assistance.hint_sentences import Wording
 from kiosk.assistance.memory_model import MemoryEstimate
 from kiosk.assistance.mentaliser import Mentaliser, Target, TargetRule
 from kiosk.assistance.policy import ENCOURAGEMENT, PRAISE, ActionSpec, MoveOutcome, State
-from kiosk.assistance.wording import Catalogue, Wording
+from kiosk.assistance.wording import Catalogue
 from kiosk.config import ConditionConfig
 from kiosk.experiment.condition import Condition, help_in
 from kiosk.experiment.dealt_boards import BoardRemark, DealtBoard

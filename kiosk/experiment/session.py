@@ -7,30 +7,24 @@ from itertools import count
 from random import Random
 
 from kiosk import UserInputError
-from kiosk.assistance.assistant import assistant_with
+from kiosk.assistance.adaptation import assistant_with
 from kiosk.assistance.comments import Commentator, CommentRule
 from kiosk.assistance.hesitation import HesitationRule
+from kiosk.assistance.hint_sentences import PlainSentences, Wording
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.wording import PlainSentences, Wording
 from kiosk.config import Game, Idle, Practice
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition, help_in
 from kiosk.experiment.effects import Effect, Mood, Outcome, OutcomeBuilder
 from kiosk.experiment.events import EmbodimentName, Event, TextSize, Timer, WorldEvent
-from kiosk.experiment.game_stage import (
-    DealtTable,
-    GameStage,
-    HintGuide,
-    MoveComments,
-)
+from kiosk.experiment.game_stage import DealtTable, GameStage, HintGuide, MoveComments
 from kiosk.experiment.information import POINTER, RETURNING
 from kiosk.experiment.outcomes import NotRecordedReason, RecordingState, Stage, Status
 from kiosk.experiment.page_stages import (
     AgeStage,
     ConsentStage,
     IntroductionStage,
-    QuestionnaireStage,
     ResultStage,
     SpeechWriter,
     StageHandler,
@@ -39,6 +33,7 @@ from kiosk.experiment.page_stages import (
 )
 from kiosk.experiment.practice_stage import PracticeStage, SampleHints
 from kiosk.experiment.projections import Measures, measure
+from kiosk.experiment.questionnaire_stage import QuestionnaireStage
 from kiosk.experiment.session_config import SessionConfig, Translation
 from kiosk.experiment.transitions import BEFORE_DECIDING, InvalidTransition, Transition, check_expected, transition
 from kiosk.game import Board

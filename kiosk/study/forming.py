@@ -19,7 +19,8 @@ from fluent.syntax.ast import (
 from fluent.syntax.visitor import Visitor
 
 from kiosk.assistance.fluent_messages import parsed
-from kiosk.assistance.wording import CARD, Catalogue, Written, given_with
+from kiosk.assistance.hint_sentences import given_with
+from kiosk.assistance.wording import CARD, Catalogue, Written
 
 _TEXTS = frozenset({CARD, "ago", "code", "contact", "free", "participant", "stage", "what", "when", "why"})
 """The variables that are texts; all others are whole numbers."""

@@ -19,9 +19,10 @@ from typing import Any
 
 from kiosk import UserInputError
 from kiosk.assistance.claims import CLAIM_PHRASES, false_claims, false_places, histories, other_cards
+from kiosk.assistance.hint_sentences import given_with
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import FlipInMove
-from kiosk.assistance.wording import CARD, REPLACING, Catalogue, given_with
+from kiosk.assistance.wording import CARD, REPLACING, Catalogue
 from kiosk.config import parse_toml, read_text
 from kiosk.files import parse_json, write_file
 from kiosk.lazy_dataclass import dataclass

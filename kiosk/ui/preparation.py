@@ -16,8 +16,8 @@ from kiosk.assistance.wording import Catalogue
 from kiosk.ui.screens.pages import draw_first_code
 
 MODULES = (
-    *("attr", "cattrs", "kiosk.experiment.page_stages", "kiosk.experiment.game_stage"),
-    *("kiosk.experiment.practice_stage", "kiosk.experiment.session"),
+    *("attr", "cattrs", "kiosk.experiment.page_stages", "kiosk.experiment.questionnaire_stage"),
+    *("kiosk.experiment.game_stage", "kiosk.experiment.practice_stage", "kiosk.experiment.session"),
     *("babel.dates", "fluent.runtime", "kiosk.assistance.fluent_messages", "http.client", "segno"),
 )
 """What is loaded in turn; large ones are split, so that no picture waits long for one."""

@@ -21,8 +21,8 @@ from kiosk.experiment import effects as do
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.effects import Effect
 from kiosk.experiment.items import Response
-from kiosk.experiment.page_stages import item_pages
 from kiosk.experiment.questionnaire import Item, Questionnaire
+from kiosk.experiment.questionnaire_stage import item_pages
 from kiosk.experiment.relevance import hidden_items
 from kiosk.experiment.session_config import SessionConfig, StudyConfig
 from kiosk.game import CARDS_IN_A_PAIR

@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kiosk.assistance.assistant import Assistant, Decision, LearningAssistant, LearningTable, UpcomingFlip
+from kiosk.assistance.adaptation import LearningAssistant, LearningTable, UpcomingFlip
+from kiosk.assistance.assistant import Assistant, Decision
 from kiosk.assistance.mentaliser import Mentaliser, TargetRule
 from kiosk.assistance.policy import ACTIONS, NO_GATE, STATES, ActionSpec, Gate, Phase, QTable, State
 from kiosk.game import Board, Concentration

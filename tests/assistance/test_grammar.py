@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from kiosk.assistance.wording import reasoning
+from kiosk.assistance.hint_sentences import reasoning
 from tests.assistance.test_languages import CARDS, catalogue, hints
 
 ITALIAN = {

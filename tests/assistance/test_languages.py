@@ -15,9 +15,10 @@ from fluent.syntax import FluentParser, ast
 from fluent.syntax.serializer import serialize_pattern
 from fluent.syntax.visitor import Visitor
 
+from kiosk.assistance.hint_sentences import PlainSentences, ReasonedSentences, Wording, place, pointing, reasoning
 from kiosk.assistance.mentaliser import Hint, HintReason, Target
 from kiosk.assistance.policy import ActionSpec, FlipInMove
-from kiosk.assistance.wording import Catalogue, PlainSentences, ReasonedSentences, Wording, place, pointing, reasoning
+from kiosk.assistance.wording import Catalogue
 from kiosk.config import ASSETS
 from kiosk.game import Position
 from tests import pseudo

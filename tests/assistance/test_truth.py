@@ -19,9 +19,9 @@ from hypothesis import strategies as st
 
 from kiosk.assistance.assistant import Assistant
 from kiosk.assistance.claims import false_claims, false_places
+from kiosk.assistance.hint_sentences import PlainSentences, ReasonedSentences, ReminderSentences, Wording, reasoning
 from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
 from kiosk.assistance.policy import NO_GATE, ActionSpec, FlipInMove, Gate
-from kiosk.assistance.wording import PlainSentences, ReasonedSentences, ReminderSentences, Wording, reasoning
 from kiosk.game import Board, Concentration, IllegalFlip, Position
 from tests.samples import ANIMALS, CATALOGUES, always
 

@@ -11,10 +11,7 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.assistance.comments import COMMENTS
-from kiosk.assistance.mentaliser import Hint, HintReason, Target
-from kiosk.assistance.policy import ActionSpec, FlipInMove
-from kiosk.assistance.wording import (
-    Catalogue,
+from kiosk.assistance.hint_sentences import (
     PlainSentences,
     ReasonedSentences,
     ReminderSentences,
@@ -24,6 +21,9 @@ from kiosk.assistance.wording import (
     reasoning,
     reminding,
 )
+from kiosk.assistance.mentaliser import Hint, HintReason, Target
+from kiosk.assistance.policy import ActionSpec, FlipInMove
+from kiosk.assistance.wording import Catalogue
 from kiosk.config import ASSETS
 from kiosk.game import Position
 from tests.samples import ANIMALS, CATALOGUES, ENGLISH

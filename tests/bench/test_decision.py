@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 from kiosk.assistance.assistant import Assistant
+from kiosk.assistance.hint_sentences import Wording
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import ActionSpec
-from kiosk.assistance.wording import Wording
 from kiosk.experiment.condition import Condition, help_in
 from kiosk.game import Board, Concentration
 from tests.bench.percentiles import tell_percentiles

@@ -12,9 +12,9 @@ import pytest
 from pydantic import ValidationError
 
 from kiosk import UserInputError
+from kiosk.assistance.hint_sentences import PlainSentences, ReasonedSentences, Wording
 from kiosk.assistance.mentaliser import Mentaliser, TargetRule
 from kiosk.assistance.policy import ActionSpec, FlipInMove
-from kiosk.assistance.wording import PlainSentences, ReasonedSentences, Wording
 from kiosk.cli.study import summarised
 from kiosk.config import ASSETS, PAPER_CONDITIONS, ConditionConfig, Settings, Timing
 from kiosk.experiment import effects as do
