@@ -26,6 +26,8 @@ from tests.ui.looking import items, lies_in, texts
 WIDE, UPRIGHT = (1920, 1080), (1080, 1920)
 ROUNDED = 3
 """So many pixels are lost where lengths are rounded."""
+NEAR = 12
+"""In pixels: letters of two sizes on one line."""
 LAYOUTS = [WIDE, UPRIGHT, (1280, 800), (1366, 768)]
 
 
@@ -219,3 +221,16 @@ def test_the_panel_stays_as_it_is_while_the_visitors_language_is_written_from_ri
         (panel,) = of_kind(window, "PanelView")
         places.append([(each.mapToScene(QPointF()), each.width()) for each in items(panel)])
     assert places[0] == places[1]
+
+
+def test_what_the_session_does_stands_beside_its_stage_where_it_has_the_whole_card(window: Window) -> None:
+    tiles = busy_day("en")["today"]["tiles"]
+    levels = []
+    for shown in (tiles, tiles[:2]):
+        show(window, "en", UPRIGHT, today={"clock": "09:52", "tiles": shown})
+        stage = find_item(window.shown.contentItem(), "today-stage")
+        assert stage is not None
+        told = {words_of(text): text.mapToScene(QPointF()).y() for text in texts(stage)}
+        levels.append(told["Paused while this is open"] - told["for 3 min"])
+    # In one line where the numbers are below, and in two where one of them stands beside it.
+    assert abs(levels[0]) < NEAR < levels[1]

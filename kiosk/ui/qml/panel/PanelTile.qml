@@ -47,9 +47,19 @@ Item {
                 font.pixelSize: tile.lettering
                 color: Theme.faintInk
             }
+            // In that line too, where it has the whole card.
+            PlainText {
+                id: last
+                visible: behind.visible && behind.x + behind.implicitWidth + 2 * behind.gap + implicitWidth <= tile.width
+                x: tile.width - width
+                y: value.baselineOffset - baselineOffset
+                text: tile.first
+                font.pixelSize: 1.22 * tile.lettering
+                color: Theme.ink
+            }
         }
         PlainText {
-            visible: text !== ""
+            visible: text !== "" && !last.visible
             width: parent.width
             text: tile.first
             font.pixelSize: 1.22 * tile.lettering
