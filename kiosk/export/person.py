@@ -7,20 +7,13 @@ from dataclasses import dataclass, fields
 from functools import cached_property
 
 from kiosk.experiment.condition import AllocationSlot
-from kiosk.experiment.events import (
-    EmbodimentName,
-)
+from kiosk.experiment.events import EmbodimentName
 from kiosk.experiment.item_responses import ItemResponse
 from kiosk.experiment.projections import Measures, ScaleScore, item_responses, measure_game
 from kiosk.experiment.session_state import SessionState
-from kiosk.export.columns import (
-    Cell,
-    Column,
-    ColumnKind,
-    Variable,
-)
+from kiosk.export.columns import Cell, Column, ColumnKind, Variable
 from kiosk.export.responses import scores_table, session_about_you
-from kiosk.store.participants import slots_by_block, slots_from_json
+from kiosk.store.allocation import slots_by_block, slots_from_json
 from kiosk.store.session_records import SessionRecord
 
 

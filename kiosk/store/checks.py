@@ -22,11 +22,12 @@ from kiosk.experiment.outcomes import SessionKind
 from kiosk.experiment.questionnaire import QUESTIONNAIRES, Questionnaire, differences
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.preflight import CheckResult
+from kiosk.store.allocation import AllocationList, AllocationLists
 from kiosk.store.connecting import primary_code, reason
 from kiosk.store.database import FILE, Foreign, Newer, make_durable, open_as_it_is, open_for_reading
 from kiosk.store.maintenance import REFUSE_MIB, WARN_MIB, SpaceLevel, free_space, list_backups
 from kiosk.store.migrations import SCHEMA
-from kiosk.store.participants import AllocationList, AllocationLists, checked_site
+from kiosk.store.participants import checked_site
 from kiosk.store.snapshot import last_written_ms
 from kiosk.store.withdrawal import is_unfinished
 from kiosk.units import MS_PER_SECOND

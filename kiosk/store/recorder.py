@@ -22,20 +22,12 @@ from kiosk.experiment.outcomes import AllocationSource, NotRecordedReason, Sessi
 from kiosk.experiment.questionnaire import QUESTIONNAIRES
 from kiosk.experiment.session_config import SessionConfig, Translation
 from kiosk.lazy_dataclass import dataclass
+from kiosk.store.allocation import AllocationLists, check_not_given_out_again
 from kiosk.store.chain import Head, HeadsFile, first_hash, last_hash
 from kiosk.store.codes import keys_of, session_with_hash, shown_code
 from kiosk.store.connecting import LOGS, failure, primary_code, reason
 from kiosk.store.database import BUSY, FILE, lock_folder, open_for_writing
-from kiosk.store.participants import (
-    AllocationLists,
-    Participant,
-    ReturningVisitor,
-    check_not_given_out_again,
-    checked_site,
-    enrol,
-    enrol_again,
-    returning_visitor,
-)
+from kiosk.store.participants import Participant, ReturningVisitor, checked_site, enrol, enrol_again, returning_visitor
 from kiosk.store.remnants import clear_end
 from kiosk.store.rows import (
     INSERT_EVENT,

@@ -18,9 +18,10 @@ from kiosk.experiment.events import WorldEvent
 from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent
 from kiosk.experiment.outcomes import SessionKind, Stage, Status
 from kiosk.lazy_dataclass import dataclass
+from kiosk.store.allocation import AllocationLists
 from kiosk.store.database import open_for_reading, unreadable
 from kiosk.store.listing import participant_name
-from kiosk.store.participants import AllocationLists, EnrolmentCounts, count_enrolment
+from kiosk.store.participants import EnrolmentCounts, count_enrolment
 from kiosk.store.recorder import Provenance
 from kiosk.units import MS_PER_HOUR, MS_PER_SECOND
 

@@ -17,6 +17,7 @@ from typing import NamedTuple
 from kiosk import UserInputError
 from kiosk.experiment.event_records import from_fields
 from kiosk.garbage import rare_collections
+from kiosk.store.allocation import quotas_from_json, slots_from_json
 from kiosk.store.chain import FILE as HEADS_FILE
 from kiosk.store.chain import chained_events, lost_ends, missing_since_written, unreadable_lines
 from kiosk.store.connecting import reason
@@ -24,7 +25,6 @@ from kiosk.store.copies import Elsewhere, KnownCopy, look_elsewhere
 from kiosk.store.database import open_as_it_is
 from kiosk.store.maintenance import Progress
 from kiosk.store.migrations import MIGRATIONS
-from kiosk.store.participants import quotas_from_json, slots_from_json
 from kiosk.store.schema import NONE_OF_OURS, refuse_other_schema, schema_flaws
 from kiosk.store.summaries import wrong_summaries, wrong_tally
 from kiosk.store.tombstones import FILE as LIST

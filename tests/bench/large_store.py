@@ -11,9 +11,9 @@ from pathlib import Path
 
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.outcomes import AllocationSource, SessionKind
+from kiosk.store.allocation import AllocationLists
 from kiosk.store.chain import EventFields, first_hash, next_hash
 from kiosk.store.database import FILE, open_for_writing
-from kiosk.store.participants import AllocationLists
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.remnants import clear_remnants
 from tests.experiment.driver import Driver, with_memory

@@ -15,9 +15,9 @@ from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import EmbodimentName
 from kiosk.experiment.outcomes import AllocationSource, Disposition, SessionKind, Stage, Status
 from kiosk.experiment.projections import measure
+from kiosk.store.allocation import AllocationLists
 from kiosk.store.database import FILE
 from kiosk.store.listing import RUNNING, SessionFilter
-from kiosk.store.participants import AllocationLists
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.verify import Verification, verify
