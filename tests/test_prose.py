@@ -18,13 +18,16 @@ PAGES = [
 ]
 
 AVOIDED = re.compile(r"\b(whoever|whosever|nobody|somebody|lies\s+with|is\s+told|be\s+it|shall)\b", re.IGNORECASE)
+ARTICLE = re.compile(r"\ba (?!one|once|eu)[aeio][a-z]{3,}", re.IGNORECASE)
+"""What has to be "an": renaming a thing leaves the article of its old name."""
 FIRST_LINE_WORDS = 20
 SENTENCE_WORDS = 40
 
 
 def avoided_words(text: str) -> list[str]:
-    """Find avoided words, each with its line."""
-    return [f"line {text.count(chr(10), 0, found.start()) + 1}: {found[0]}" for found in AVOIDED.finditer(text)]
+    """Find avoided words and wrong articles, each with its line."""
+    found = [*AVOIDED.finditer(text), *ARTICLE.finditer(text)]
+    return [f"line {text.count(chr(10), 0, each.start()) + 1}: {each[0]}" for each in found]
 
 
 DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
@@ -56,6 +59,11 @@ def long_sentences(page: str) -> list[str]:
     paragraphs = re.split(r"\n\s*\n|\n(?=\s*(?:[-*]|\d+\.) )", text)
     sentences = [each for paragraph in paragraphs for each in re.split(r"(?<=[.!?])[*)\"_]*\s", paragraph)]
     return [" ".join(each.split()) for each in sentences if len(each.split()) > SENTENCE_WORDS]
+
+
+def test_avoided_words_and_wrong_articles_are_found_by_their_lines() -> None:
+    assert avoided_words("An item, a user,\nonce a one and a euro") == []
+    assert avoided_words("An item\nof nobody, a item") == ["line 2: nobody", "line 2: a item"]
 
 
 def test_the_code_and_its_messages_use_plain_words() -> None:

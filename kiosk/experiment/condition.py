@@ -185,7 +185,7 @@ def ratio_in_words(quotas: Mapping[Condition, int]) -> str:
 def _ratio(quotas: Mapping[Condition, int]) -> Counter[Condition]:
     """How often each condition comes up in the shortest stretch in ratio, in the conditions' own order."""
     if not quotas:
-        raise UserInputError("a allocation list needs a quota for at least one condition")
+        raise UserInputError("an allocation list needs a quota for at least one condition")
     for condition, quota in quotas.items():
         if quota < 1:
             raise UserInputError(f"the quota of {condition.name} must be at least 1, not {quota}")

@@ -110,7 +110,7 @@ def test_a_list_that_ends_within_a_block_is_kept_when_it_is_handed_in(
 @pytest.mark.parametrize(
     ("quotas", "block", "words"),
     [
-        ({}, 2, "needs a quota for at least one condition"),
+        ({}, 2, "an allocation list needs a quota for at least one condition"),
         ({Condition.TOM: 0, Condition.NOTOM: 4}, 2, "the quota of tom must be at least 1, not 0"),
         (STUDY, 3, "a block of 3 slots cannot hold 1 tom, 1 notom in ratio; 2, 4, 6 and so on fit"),
         (STUDY, 0, "a block of 0 slots"),
