@@ -114,10 +114,30 @@ def joined(parts: Sequence[Clip], pause_ms: int = 0) -> Clip:
 
 def loudness_steps(clip: Clip) -> tuple[float, ...]:
     """How far the mouth opens, from 0 to 1, at each step of 40 ms."""
-    step = clip.rate * LOUDNESS_MS // 1000
-    padded = np.pad(clip.values, (0, -len(clip.samples) % step)).reshape(-1, step)
-    opening = np.clip(np.sqrt((padded**2).mean(axis=1)) / FULL_LOUDNESS, 0, 1)
+    opening = np.clip(np.sqrt((_mouth_steps(clip) ** 2).mean(axis=1)) / FULL_LOUDNESS, 0, 1)
     return tuple(round(float(value), 2) for value in opening)
+
+
+_SHAPE_LIMITS = ((600.0, "round"), (1500.0, "open"), (3000.0, "wide"))
+_CLOSED = 0.06
+
+
+def mouth_shapes(clip: Clip) -> tuple[str, ...]:
+    """Name the mouth's shape at each step of 40 ms: closed, round, open, wide or teeth."""
+    steps = _mouth_steps(clip)
+    step = steps.shape[1]
+    power = np.abs(np.fft.rfft(steps * np.hanning(step), axis=1)) ** 2
+    middle = (power * np.fft.rfftfreq(step, 1 / clip.rate)).sum(axis=1) / (power.sum(axis=1) + 1e-12)
+    return tuple(
+        "closed" if opening < _CLOSED else next((name for limit, name in _SHAPE_LIMITS if centre < limit), "teeth")
+        for opening, centre in zip(loudness_steps(clip), middle, strict=True)
+    )
+
+
+def _mouth_steps(clip: Clip) -> NDArray[np.float64]:
+    """Return the samples from -1 to 1, a row for each step of the mouth; silence fills the last one."""
+    step = clip.rate * LOUDNESS_MS // 1000
+    return np.pad(clip.values, (0, -len(clip.samples) % step)).reshape(-1, step)
 
 
 TARGET_LUFS = -20.0
@@ -192,19 +212,3 @@ def trimmed(clip: Clip) -> Clip:
     values[:rise] *= np.linspace(0, 1, rise)
     values[len(values) - fall :] *= np.linspace(1, 0, fall)
     return Clip.of(values, clip.rate)
-
-
-_SHAPE_LIMITS = ((600.0, "round"), (1500.0, "open"), (3000.0, "wide"))
-_CLOSED = 0.06
-
-
-def mouth_shapes(clip: Clip) -> tuple[str, ...]:
-    """Name the mouth's shape at each step of 40 ms: closed, round, open, wide or teeth."""
-    step = clip.rate * LOUDNESS_MS // 1000
-    frames = np.pad(clip.values, (0, -len(clip.samples) % step)).reshape(-1, step)
-    power = np.abs(np.fft.rfft(frames * np.hanning(step), axis=1)) ** 2
-    middle = (power * np.fft.rfftfreq(step, 1 / clip.rate)).sum(axis=1) / (power.sum(axis=1) + 1e-12)
-    return tuple(
-        "closed" if opening < _CLOSED else next((name for limit, name in _SHAPE_LIMITS if centre < limit), "teeth")
-        for opening, centre in zip(loudness_steps(clip), middle, strict=True)
-    )
