@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import tomllib
+
 import pytest
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QAccessible, QAccessibleInterface
 from PySide6.QtQuick import QQuickItem
 from pytestqt.qtbot import QtBot
 
-from kiosk.config import Settings
+from kiosk.config import ASSETS, Settings
 from kiosk.experiment.information import ConsentPage, Purpose
-from kiosk.ui.simulated_visitor import UiDriver
+from kiosk.ui.simulated_visitor import UiDriver, lay_out
 from tests.ui.conftest import Booth
 from tests.ui.looking import painted, place, texts
 
@@ -147,7 +149,11 @@ def test_what_is_missing_is_said_in_words_until_it_is_ticked(booth: Booth, done:
     assert not says(booth.item("purpose-store"), words)
 
 
-def test_to_decline_is_as_easy_to_see_as_to_agree(booth: Booth, done: Done) -> None:
+@pytest.mark.parametrize("scale", [1.0, 1.3, 1.5])
+def test_to_decline_is_as_easy_to_see_as_to_agree(booth: Booth, done: Done, scale: float) -> None:
+    booth.app.window.setProperty("textSize", scale)
+    booth.app.screens.kiosk.offer_back(offered=True)
+    lay_out(booth.app.window)
     agree, decline = booth.item("agree"), booth.item("decline")
     assert (decline.width(), decline.height()) == (agree.width(), agree.height())
     assert decline.property("font") == agree.property("font")
@@ -172,6 +178,10 @@ def test_on_an_upright_screen_the_way_back_is_beside_the_way_on_and_to_decline_i
     assert decline.bottom() < agree.top()
     assert back.center().y() == pytest.approx(agree.center().y(), abs=1)
     assert booth.item("decline").property("font") == booth.item("agree").property("font")
+    # Without a way back both are as large.
+    booth.app.screens.kiosk.offer_back(offered=False)
+    lay_out(window)
+    assert place(booth.item("decline")).size() == place(booth.item("agree")).size()
 
 
 @pytest.mark.usefixtures("done")
@@ -194,6 +204,29 @@ def test_what_is_to_go_and_the_words_of_the_button_are_one_group_in_its_middle(
         assert (note.right() < words.left()) if language == "ar" else (words.right() < note.left())
     else:
         assert words.center().y() < note.center().y()
+
+
+@pytest.mark.usefixtures("done")
+@pytest.mark.parametrize("scale", [1.0, 1.15])
+@pytest.mark.parametrize(
+    "sheet",
+    [
+        *(f"consent/study/{language}.toml" for language in ("en", "it", "es")),
+        "templates/two-languages/information/de.toml",
+    ],
+)
+def test_on_an_upright_screen_points_and_boxes_are_all_seen_at_once(
+    booth: Booth, qtbot: QtBot, sheet: str, scale: float
+) -> None:
+    window = booth.app.window
+    window.setProperty("textSize", scale)
+    window.resize(1080, 1920)
+    qtbot.waitUntil(lambda: window.contentItem().width() == 1080)
+    page = ConsentPage.model_validate(tomllib.loads((ASSETS / sheet).read_text(encoding="utf-8"))["consent"])
+    booth.app.screens.consent.show(page)
+    booth.settle()
+    assert booth.sees("purpose-share")
+    assert not booth.sees("more")
 
 
 def test_a_keyboard_alone_decides(booth: Booth, done: Done) -> None:

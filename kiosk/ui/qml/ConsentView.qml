@@ -16,6 +16,25 @@ PageFrame {
     aside: short ? sayable(consent.points) : ""
     readonly property var read: aside === "" ? consent.points : consent.points.slice(0, -1)
 
+    // Whether an upright page has too much to say for its largest letters and air between its groups, and whether for the
+    // next smaller letters as well.
+    readonly property bool snug: short && width < height && tall(38, 36, 1) + 1.6 * Theme.gap > pane.room
+    readonly property bool tight: snug && tall(34, 33, 0.7) > pane.room
+    FontMetrics {
+        id: measure
+        font.pixelSize: 100
+    }
+    // About how high points and boxes are on an upright page, with letters of these sizes, so many gaps apart.
+    function tall(pointSize: real, boxSize: real, apart: real): real {
+        const points = read.reduce((sum, point) => sum + Math.max(2.5 * pointSize, 1.48 * pointSize * lines(point.text, pointSize, 2.5 * pointSize + 24)), 0)
+        const boxes = consent.purposes.reduce((sum, purpose) => sum + Math.max(76, 1.37 * boxSize * lines(purpose.text, boxSize, 64 + 3 * 28)) + 38, 0)
+        return Theme.size(points + boxes + 2 * 1.37 * pointSize) + (apart * (read.length - 1 + consent.purposes.length) + 1.2) * Theme.gap
+    }
+    // On how many lines a text is that leaves so much of the width to something else.
+    function lines(text: string, size: real, taken: real): int {
+        return Math.ceil(1.05 * measure.advanceWidth(text) * size / 100 / (column / Theme.unit / Math.max(1, Theme.textSize) - taken))
+    }
+
     title: consent.title
     label: words["consent-agree"]
     quiet: !consent.complete
@@ -87,9 +106,9 @@ PageFrame {
                 visible: view.short
                 width: pane.width
                 // Larger on an upright screen, but where large texts need the room themselves.
-                readonly property bool airy: Theme.textSize <= 1.15 && (view.width < view.height
+                readonly property bool airy: Theme.textSize <= 1.15 && (view.width < view.height && !view.tight
                     || (view.accompanied && 95 * view.read.length + 140 * view.consent.purposes.length + 85 <= pane.room / Theme.unit))
-                spacing: (airy ? view.width < view.height ? 0.9 : 1.2 : 0.6) * Theme.gap
+                spacing: (airy ? view.snug ? 0.6 : view.width < view.height ? 0.9 : 1.2 : 0.6) * Theme.gap
                 // Two stand beside each other, which leaves height to what there is to tick.
                 columns: airy && view.width > view.height && view.read.length === 2 ? 2 : 1
                 columnSpacing: 2 * Theme.gap
@@ -100,7 +119,7 @@ PageFrame {
                         width: (points.width - (points.columns - 1) * points.columnSpacing) / points.columns
                         text: modelData.text
                         sign: modelData.sign
-                        size: points.airy ? Theme.size(view.width < view.height ? 38 : 34) : Theme.body
+                        size: points.airy ? Theme.size(view.width < view.height && !view.snug ? 38 : 34) : Theme.body
                     }
                 }
             }
@@ -163,7 +182,7 @@ PageFrame {
                         free -= ((purposes.itemAt(i) as Purpose)?.bare ?? 0) + spacing
                     return Math.max(0, Math.min((view.width < view.height ? 1.3 : points.columns > 1 ? 1 : 0.5) * Theme.gap, free))
                 }
-                spacing: (points.airy && view.short ? (view.width < view.height ? 1 : points.columns > 1 ? 0.9 : 0.67) : 0.5) * Theme.gap
+                spacing: (points.airy && view.short ? (view.snug ? 0.7 : view.width < view.height ? 1 : points.columns > 1 ? 0.9 : 0.67) : 0.5) * Theme.gap
                 // What is still to be ticked, or that nothing is.
                 PlainText {
                     id: waits
@@ -214,7 +233,7 @@ PageFrame {
                             y: group.visible ? group.y + group.height + (view.width < view.height ? 0.7 : 1) * boxes.spacing : purpose.apart ? boxes.further : 0
                             width: parent.width
                             large: points.airy && view.short
-                            broad: large && view.width < view.height
+                            broad: large && view.width < view.height && !view.snug
                             roomy: view.short && Theme.textSize <= 1.15
                             words: purpose.modelData.text
                             needed: purpose.modelData.required

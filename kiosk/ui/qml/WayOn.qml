@@ -48,6 +48,9 @@ FocusScope {
     // room beside the words.
     readonly property real stout: even && (!fills || Theme.textSize > 1.15) ? 22 * Theme.unit : 0
     readonly property real share: Math.min(spread, Math.max(go.wish, no.wish))
+    // Large texts set both one above the other on a wide page as well, and there too they are as wide as each other.
+    readonly property bool stacked: even && !fills && !beside && goes && refuses
+    readonly property real pile: Math.min(width - (returns ? back.width + Theme.gap : 0), Math.max(go.wish, no.wish))
     readonly property real step: (fills && Theme.textSize <= 1.15 ? 1.1 : 0.5) * Theme.gap
     // How far they reach above their place.
     readonly property real over: Math.max(0, -go.y)
@@ -69,7 +72,7 @@ FocusScope {
         objectName: ways.name
         visible: ways.goes
         most: ways.width
-        width: ways.level ? ways.share
+        width: ways.level ? ways.share : ways.stacked ? ways.pile
              : !ways.fills || ways.beside && ways.refuses ? Math.min(wish, most)
              : (ways.beside || ways.paired) && ways.returns ? ways.width - back.width - Theme.gap : ways.width
         x: Theme.across(ways.width - width, width, ways.width)
@@ -93,8 +96,8 @@ FocusScope {
         objectName: ways.otherName
         visible: ways.refuses
         most: ways.width
-        width: ways.level ? ways.share
-             : !ways.fills || !ways.returns ? Math.min(wish, most)
+        width: ways.level ? ways.share : ways.stacked ? ways.pile
+             : !ways.fills || !ways.returns && !ways.even ? Math.min(wish, most)
              : ways.beside ? ways.width - go.width - back.width - 2 * Theme.gap : ways.width
         x: Theme.across(ways.width - width - (ways.beside ? go.width + Theme.gap : 0), width, ways.width)
         y: ways.level ? go.y : 0
