@@ -285,7 +285,12 @@ _LONGEST = 60
 
 
 def _rows(name: str, file: Path) -> list[tuple[int, list[str]]]:
-    """Return the rows that are not empty, with their numbers; a spreadsheet may have put ; or tabs between cells."""
+    """Return the rows that are not empty, with their numbers."""
+    return _delimited(name, file)[0]
+
+
+def _delimited(name: str, file: Path) -> tuple[list[tuple[int, list[str]]], str]:
+    """Return the rows that are not empty, with their numbers, and the delimiter: a comma, a semicolon or a tab."""
     from kiosk.study.csv_import import text_of_table  # noqa: PLC0415 - few decks have a table of names
 
     text, first = text_of_table(name, file).replace("\r\n", "\n"), 1
@@ -297,7 +302,8 @@ def _rows(name: str, file: Path) -> list[tuple[int, list[str]]]:
         cells = list(csv.reader(io.StringIO(text), delimiter=delimiter, strict=True))
     except csv.Error as error:
         raise UserInputError(f"{name} is no table: {error}") from error
-    return [(number, row) for number, row in enumerate(cells, first) if any(cell.strip() for cell in row)]
+    rows = [(number, row) for number, row in enumerate(cells, first) if any(cell.strip() for cell in row)]
+    return rows, delimiter
 
 
 def _columns(header: Sequence[str], faults: list[str]) -> Iterator[tuple[int, tuple[str, str]]]:
@@ -331,6 +337,28 @@ def _no_card(name: str, cards: Iterable[str]) -> str:
     close = get_close_matches(name, list(cards), n=1)
     meant = f"; did you mean {close[0]!r}?" if close else ""
     return f"there is no picture {name!r} in the folder{meant}" if name else "the name of the card is missing"
+
+
+def with_names(folder: Path, language: str, names: Mapping[str, str]) -> str:
+    """Return the table of names of a deck, with these names of cards put in for a language.
+
+    Raises UserInputError if the table cannot be read.
+    """
+    file = folder / NAMES
+    numbered, delimiter = _delimited(f"the names {file}", file)
+    (_, header), *body = numbered
+    titles = [title.strip() for title in header]
+    there = (n for n, title in enumerate(titles) if n and is_right(title) and code_of(title) == language)
+    at = next(there, len(titles))
+    cards = pictures_in(folder)
+    rows = [header if at < len(titles) else [*header, language]]
+    for _, cells in body:
+        padded = [*cells, *[""] * (at + 1 - len(cells))]
+        padded[at] = names.get(_card(cells[0].strip(), cards) or "", padded[at])
+        rows.append(padded)
+    out = io.StringIO()
+    csv.writer(out, delimiter=delimiter, lineterminator="\n").writerows(rows)
+    return out.getvalue()
 
 
 def names_table(cards: Iterable[str], languages: Mapping[str, Sequence[str]], known: Mapping[str, Forms]) -> str:

@@ -22,6 +22,7 @@ from kiosk import UserInputError
 from kiosk.config import ASSETS, Settings, code_of, read_text
 from kiosk.files import write_file
 from kiosk.language_codes import is_right, standard
+from kiosk.study.decks import NAMES, read_names, with_names
 
 CARD = "card"
 LONG = 4
@@ -251,6 +252,24 @@ def pattern_text(pattern: Pattern) -> str:
     return dedent(serialize_pattern(pattern).lstrip("\n")).strip()
 
 
+class _Names(_Part):
+    """The table of a deck's names, with a column for each language; forms such as ``it.il`` are not translated."""
+
+    source_language = ""
+
+    def units(self, language: str) -> Iterator[Unit]:
+        """Yield the name of every card that has one in the source language."""
+        names = read_names(self.source.parent)
+        ours, theirs = (names[code].forms if code in names else {} for code in (self.source_language, language))
+        for card, forms in ours.items():
+            if "" in forms:
+                yield Unit(f"{self.name}#{card}", forms[""], theirs.get(card, {}).get("", ""), self.note)
+
+    def changed(self, language: str, texts: Mapping[str, str]) -> tuple[Path, str] | None:
+        """Return the table with these names."""
+        return (self.source, with_names(self.source.parent, language, texts)) if texts else None
+
+
 class _Sheet(_Part):
     """An information sheet: a TOML file for each language."""
 
@@ -353,6 +372,9 @@ def read_document(file: Path) -> tomlkit.TOMLDocument:
         raise UserInputError(f"the file {file} is not TOML: {error}") from error
 
 
+_NAME = "A card's name."
+
+
 @dataclass
 class Translation:
     """All texts of a study in one language, held against its first language."""
@@ -399,12 +421,13 @@ class Translation:
             own = {code_of(file.stem): file for file in sorted(place.glob("*.ftl"))}
             source = own.get(self.source_language)
             if source:
-                yield _Sentences(
-                    f"cards/{place.name}",
-                    source,
-                    own.get(self.language, place / f"{self.language}.ftl"),
-                    "A card's name.",
-                )
+                target = own.get(self.language, place / f"{self.language}.ftl")
+                yield _Sentences(f"cards/{place.name}", source, target, _NAME)
+            table = place / NAMES
+            if table.is_file():
+                names = _Names(f"cards/{place.name}/{NAMES}", table, table, _NAME)
+                names.source_language = self.source_language
+                yield names
 
     def _sheet(self) -> Iterator[_Part]:
         place = self.settings.resolve_asset("consent", self.settings.consent.text)

@@ -216,3 +216,23 @@ def test_a_copy_that_is_not_translated_is_cautioned(study: Path) -> None:
 def test_short_words_may_be_the_same_in_two_languages() -> None:
     assert not is_untranslated("panda", "panda")
     assert is_untranslated("You have seen both cards once.", "You have seen both cards once.")
+
+
+@pytest.mark.parametrize(
+    ("table", "changed"),
+    [
+        ("card;en\nowl;owl\ncat;cat\n", "card;en;nl\nowl;owl;uil\ncat;cat;\n"),
+        ("card,nl,en,it.il\nowl,,owl,il gufo\nowl2,x,,\n", "card,nl,en,it.il\nowl,uil,owl,il gufo\nowl2,x,,\n"),
+    ],
+)
+def test_names_of_cards_in_a_table_are_translated_in_it(table: str, changed: str, study: Path) -> None:
+    shutil.copytree(ASSETS / "cards" / "animals", study.parent / "cards")
+    shutil.copy(study.parent / "cards" / "owl.svg", study.parent / "cards" / "owl2.svg")
+    (study.parent / "cards" / "names.csv").write_text(table, "utf-8")
+    study.write_text(STUDY.format("") + '[game]\ndeck = "./cards"\n', "utf-8")
+    found = {unit.key: unit for unit in dutch(study).units()}["cards/cards/names.csv#owl"]
+    assert (found.source, found.target, found.state) == ("owl", "", State.MISSING)
+    written, left = dutch(study).fill({found.key: "uil"})
+    assert (written, left) == ([study.parent / "cards" / "names.csv"], [])
+    assert (study.parent / "cards" / "names.csv").read_text("utf-8") == changed
+    assert {unit.key: unit.target for unit in dutch(study).units()}[found.key] == "uil"
