@@ -152,6 +152,14 @@ def test_a_limesurvey_file_is_taken(tmp_path: Path) -> None:
     assert any("the type '*' is not taken" in each for each in left)
 
 
+def test_a_limesurvey_array_without_parts_is_one_question_with_its_text_once(tmp_path: Path) -> None:
+    file = tmp_path / "survey.txt"
+    rows = [row for row in LIME[:8] if row[0] != "SQ"]
+    file.write_text("\n".join("\t".join(row) for row in rows), "utf-8")
+    (item,) = read_survey(file, HEADING)[0].items
+    assert (item.id, item.text) == ("trust", {"de": "Wie sehr?"})
+
+
 def question(name: str, kind: str, selector: str, **more: object) -> dict[str, object]:
     payload = {"QuestionText": f"{name}?", "DataExportTag": name, "QuestionType": kind, "Selector": selector, **more}
     return {"Element": "SQ", "Payload": payload}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -51,6 +51,13 @@ class _Question:
     parts: dict[str, dict[str, str]] = field(default_factory=dict)
     answers: dict[str, dict[str, str]] = field(default_factory=dict)
 
+    def asked(self, name: str) -> Iterator[tuple[str, dict[str, str]]]:
+        """Yield the name and the text of each item here: one for each part, or the question alone."""
+        if not self.parts:
+            yield name, self.text
+        for key, words in self.parts.items():
+            yield f"{name}_{key}", joined(self.text, words)
+
 
 def take_limesurvey(survey: Survey, rows: Rows) -> None:
     """Take the questions of a table."""
@@ -90,27 +97,24 @@ def _relevance(where: str, row: Mapping[str, str], otherwise: str) -> tuple[Show
 _POINTS = {"5": 5, "A": 5, "B": 10}
 
 
-def _take_question(survey: Survey, name: str, question: _Question) -> None:  # noqa: C901 - a case for each type of that program
+def _take_question(survey: Survey, name: str, question: _Question) -> None:  # noqa: C901 - a case for each of its types
     survey.begin()
     more: dict[str, Any] = {"required": True} if question.required else {}
     where, kind, text = question.where, question.kind, question.text
-    answers = [{"id": option_id(key), "text": words} for key, words in question.answers.items()]
-    parts = [{"id": option_id(key), "text": words} for key, words in question.parts.items()]
-    asked = [(f"{name}_{key}", words) for key, words in question.parts.items()] or [(name, text)]
+    answers, parts = _options(question.answers), _options(question.parts)
     match kind:
         case "L" | "!" | "O" if answers:
             survey.add(where, name, "single", text, **more, options=answers)
         case "M" | "P" if parts:
             survey.add(where, name, "multiple", text, **more, options=parts)
         case "F" | "H" if answers:
-            for each, words in asked:
-                survey.add(where, each, "single", joined(text, words), **more, options=answers)
+            for each, said in question.asked(name):
+                survey.add(where, each, "single", said, **more, options=answers)
         case "5" | "A" | "B":
-            for each, words in asked:
-                ends = (dict.fromkeys(words, end) for end in ("1", str(_POINTS[kind])))
-                low, high = ends
-                said = words if words is text else joined(text, words)
-                survey.add(where, each, "likert", said, **more, points=_POINTS[kind], lowest=low, highest=high)
+            points = _POINTS[kind]
+            for each, said in question.asked(name):
+                low, high = dict.fromkeys(said, "1"), dict.fromkeys(said, str(points))
+                survey.add(where, each, "likert", said, **more, points=points, lowest=low, highest=high)
         case "Y":
             survey.add(where, name, "single", text, **more, options=yes_or_no(survey, where))
         case "N":
@@ -123,3 +127,7 @@ def _take_question(survey: Survey, name: str, question: _Question) -> None:  # n
             survey.leave(where, f"the type {kind!r} is not taken")
             return
     survey.show_if(question.shown)
+
+
+def _options(texts: Mapping[str, dict[str, str]]) -> list[dict[str, Any]]:
+    return [{"id": option_id(key), "text": words} for key, words in texts.items()]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from typing import Any
 
 from kiosk.study.survey_import.survey import (
@@ -51,41 +52,56 @@ _COLUMNS = {
 }
 
 
-def take_redcap(survey: Survey, rows: Rows) -> None:  # noqa: C901 - a case for each type of that program
+def take_redcap(survey: Survey, rows: Rows) -> None:
     """Take the fields of a data dictionary."""
     for number, raw in enumerate(rows, 2):
         row = {key: next((raw[each] or "" for each in names if raw.get(each)), "") for key, names in _COLUMNS.items()}
-        where = f"row {number}, {row['name']}"
-        survey.begin()
-        text = survey.words(where, row["label"])
-        more: dict[str, Any] = {"required": True} if row["required"].lower() == "y" else {}
-        kind = row["type"].lower()
-        match kind:
-            case "radio" | "dropdown" | "checkbox":
-                more["options"] = _options(survey, where, row["choices"])
-                survey.add(where, row["name"], "multiple" if kind == "checkbox" else "single", text, **more)
-            case "yesno" | "truefalse":
-                survey.add(where, row["name"], "single", text, **more, options=yes_or_no(survey, where))
-            case "text" if row["validation"] in {"integer", "number"}:
-                ends = {key: int(row[key]) for key in ("lowest", "highest") if re.fullmatch(r"-?\d{1,9}", row[key])}
-                limits = " and ".join(f". {'>=' if key == 'lowest' else '<='} {end}" for key, end in ends.items())
-                survey.add(where, row["name"], "integer", text, **more, **bounds(survey, where, limits))
-            case "text" | "notes":
-                if row["validation"]:
-                    survey.leave(where, f"its validation {row['validation']!r} is not taken")
-                survey.add(where, row["name"], "text", text, **more)
-            case "descriptive":
-                survey.add(where, row["name"], "page", text)
-            case "slider":
-                ends_ = [each.strip() for each in row["choices"].split("|")] if row["choices"] else ["0", "100"]
-                left, right = (survey.words(where, each or "-") for each in (ends_[0], ends_[-1]))
-                survey.add(where, row["name"], "slider", text, **more, left=left, right=right)
-            case _:
-                survey.leave(where, f"the field type {row['type']!r} is not taken")
-                continue
-        if row["branching"]:
-            told = f"its branching logic ({row['branching']}) is not taken: it is always asked"
-            survey.show_if([Shown(where, told, in_our_words(row["branching"], _CONDITION))])
+        _take_field(survey, f"row {number}, {row['name']}", row)
+
+
+def _take_field(survey: Survey, where: str, row: Mapping[str, str]) -> None:
+    survey.begin()
+    name, kind, text = row["name"], row["type"].lower(), survey.words(where, row["label"])
+    more: dict[str, Any] = {"required": True} if row["required"].lower() == "y" else {}
+    match kind:
+        case "radio" | "dropdown":
+            survey.add(where, name, "single", text, **more, options=_options(survey, where, row["choices"]))
+        case "checkbox":
+            survey.add(where, name, "multiple", text, **more, options=_options(survey, where, row["choices"]))
+        case "yesno" | "truefalse":
+            survey.add(where, name, "single", text, **more, options=yes_or_no(survey, where))
+        case "text" | "notes":
+            _take_typed(survey, where, row, text, more)
+        case "descriptive":
+            survey.add(where, name, "page", text)
+        case "slider":
+            survey.add(where, name, "slider", text, **more, **_slider_ends(survey, where, row["choices"]))
+        case _:
+            survey.leave(where, f"the field type {row['type']!r} is not taken")
+            return
+    if row["branching"]:
+        told = f"its branching logic ({row['branching']}) is not taken: it is always asked"
+        survey.show_if([Shown(where, told, in_our_words(row["branching"], _CONDITION))])
+
+
+def _take_typed(
+    survey: Survey, where: str, row: Mapping[str, str], text: Mapping[str, str], more: Mapping[str, Any]
+) -> None:
+    """Take a field that is typed into: a whole number, or a text, whose validation is left."""
+    if row["type"].lower() == "text" and row["validation"] in {"integer", "number"}:
+        ends = {sign: row[key] for sign, key in ((">=", "lowest"), ("<=", "highest"))}
+        limits = " and ".join(f". {sign} {end}" for sign, end in ends.items() if re.fullmatch(r"-?\d{1,9}", end))
+        survey.add(where, row["name"], "integer", text, **more, **bounds(survey, where, limits))
+        return
+    if row["validation"]:
+        survey.leave(where, f"its validation {row['validation']!r} is not taken")
+    survey.add(where, row["name"], "text", text, **more)
+
+
+def _slider_ends(survey: Survey, where: str, choices: str) -> dict[str, Any]:
+    """Return the words at the ends of a slider: its first and last label, or 0 and 100."""
+    labels = [each.strip() or "-" for each in choices.split("|")] if choices else ["0", "100"]
+    return {"left": survey.words(where, labels[0]), "right": survey.words(where, labels[-1])}
 
 
 def _options(survey: Survey, where: str, choices: str) -> list[dict[str, Any]]:

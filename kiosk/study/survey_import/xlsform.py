@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import xml.etree.ElementTree as ET
 import zipfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 from xml.parsers import expat
@@ -168,9 +168,7 @@ _NOT_TAKEN = {
 }
 
 
-def _take_row(  # noqa: C901 - a case for each type of that program
-    survey: Survey, where: str, row: Mapping[str, str], choices: Mapping[str, list[dict[str, Any]]]
-) -> None:
+def _take_row(survey: Survey, where: str, row: Mapping[str, str], choices: Mapping[str, list[dict[str, Any]]]) -> None:
     kind, _, rest = row["type"].strip().partition(" ")
     texts, name = _labels(survey, where, row), row.get("name", "")
     more: dict[str, Any] = {}
@@ -187,13 +185,22 @@ def _take_row(  # noqa: C901 - a case for each type of that program
         case "note":
             survey.add(where, name, "page", texts)
         case "range":
-            ends = dict(re.findall(r"(start|end)\s*=\s*(-?\d+)", row.get("parameters", "")))
-            low, high = int(ends.get("start", 0)), int(ends.get("end", 10))
-            words = [{code: str(end) for code in texts} for end in (low, high)]
-            survey.add(where, name, "slider", texts, **more, lowest=low, highest=high, left=words[0], right=words[1])
+            survey.add(where, name, "slider", texts, **more, **_slider_ends(row.get("parameters", ""), texts))
         case _:
             survey.leave(where, f"the type {row['type']!r} is not taken")
             return
+    _leave_columns(survey, where, row)
+
+
+def _leave_columns(survey: Survey, where: str, row: Mapping[str, str]) -> None:
     for column, what in _NOT_TAKEN.items():
         if row.get(column):
             survey.leave(where, what.format(row[column]))
+
+
+def _slider_ends(parameters: str, languages: Iterable[str]) -> dict[str, Any]:
+    """Return the ends of a range, in numbers and in words, from parameters such as ``start=0 end=10``."""
+    given = dict(re.findall(r"(start|end)\s*=\s*(-?\d+)", parameters))
+    low, high = int(given.get("start", 0)), int(given.get("end", 10))
+    left, right = (dict.fromkeys(languages, str(end)) for end in (low, high))
+    return {"lowest": low, "highest": high, "left": left, "right": right}
