@@ -49,7 +49,7 @@ QtObject {
     readonly property real free: room - corner.height - Theme.gap - sentence
     // On an upright screen the assistant stands below: with its sentence, alone, or not at all. It makes room for
     // large texts, but on a form, where the keys of a number stand in its place.
-    readonly property real uprightHeight: high ? (board !== null ? Math.min(free, board.wish) : free)
+    readonly property real uprightHeight: high ? (board !== null ? Math.min(free, board.boardLayout.wish) : free)
         : unwatched ? room - corner.height - Theme.gap : room * uprightShare
     // Board and assistant stand close together: the board takes what its cards need, at least half of the screen.
     readonly property real uprightShare: !speaks ? (Theme.textSize > 1.15 && kiosk.screen !== "form" ? 0.84 : 0.78)
@@ -59,12 +59,12 @@ QtObject {
         : kiosk.screen === "result" && Theme.textSize <= 1.15 ? 0.67
         : board === null ? 0.64
         // The helper keeps its size from the practice to the game.
-        : Math.max(Theme.textSize <= 1 ? 0.628 : 0.62, Math.min(0.64, board.wish / room))
+        : Math.max(Theme.textSize <= 1 ? 0.628 : 0.62, Math.min(0.64, board.boardLayout.wish / room))
     readonly property real pageWidth: widthOn(kiosk.screen)
     readonly property real pageHeight: heightOn(kiosk.screen)
     readonly property real pageX: wide && boardOnRight ? width - pageWidth : 0
     readonly property real pageY: wide || board === null ? 0 : Math.round(high ? Math.max(0, (free - pageHeight) / 2) : 0.015 * room)
-    readonly property point pageMiddle: Qt.point(pageX + (board !== null ? board.middle : pageWidth / 2), room / 2)
+    readonly property point pageMiddle: Qt.point(pageX + (board !== null ? board.boardLayout.middle : pageWidth / 2), room / 2)
     // The words of the start screen may stand a little lower, beside the room above the helper's ears.
     readonly property real attractLower: !wide && avatar.present && !helper.says && Theme.textSize <= 1.15 ? 0.045 * room : 0
 
@@ -81,7 +81,7 @@ QtObject {
     // An upright screen's bubble has the edges of its pages, and of the cards. Beside a robot on a wide screen, what is
     // said ends before the controls.
     readonly property real helperWidth: !helperBelow ? width - pageWidth - Theme.gap
-        : !wide ? width - (board !== null ? 2 * board.edge : 4 * Theme.gap)
+        : !wide ? width - (board !== null ? 2 * board.boardLayout.edge : 4 * Theme.gap)
         : Math.min(0.76 * width, width - 2 * (3 * corner.step + 1.7 * Theme.gap))
     readonly property real helperHeight: high ? sentence : helperBelow ? room - helperY : room - helperAbove
     // How much of that is its face, where it speaks: large sentences need the room.

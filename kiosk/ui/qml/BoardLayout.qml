@@ -1,0 +1,129 @@
+// Where the cards stand on the game's page, and the words and the tray above them or beside them. Each length is worked
+// out after those that it depends on.
+import QtQuick
+import "."
+
+QtObject {
+    id: layout
+
+    // The page, and the board on it.
+    required property real width
+    required property real height
+    // Whether the screen is higher than wide: then the tray is a shelf with lines of its own above the cards.
+    required property bool upright
+    // How much of its lower end a long sentence may cover.
+    required property real lent
+    // Whether the height passes several values, while the helper comes or goes. The cards are laid out for the last.
+    required property bool resizes
+    required property int rows
+    required property int columns
+    required property int pairs
+    required property bool practises
+    // What the words, the way to the game and the line under the cards take.
+    required property real practiceWidth
+    required property real progressWidth
+    required property real skipWidth
+    required property real skipHeight
+    required property real pillHeight
+
+    // Where there is far more room beside the cards than above them, the tray stands there.
+    readonly property bool broad: !upright && width > 1.6 * height
+    readonly property real side: broad ? Math.min(300 * Theme.unit, 0.17 * width) : 0
+    // How much of a cell a card takes. The cards' pictures have a narrow margin.
+    readonly property real share: upright ? 0.98 : 0.91
+    readonly property real margin: (1 - 0.962 * share) / 2
+    // Beside the numbers there is room for a mark's arrow.
+    readonly property real numbers: (upright ? 66 : 78) * Theme.unit
+    // On an upright screen, the room of the rows' numbers and their arrow beside the cards.
+    readonly property real gutter: (upright ? 50 : 0) * Theme.unit
+    // On an upright screen the cards and the numbers of their rows are together as wide as the helper's sentence, and
+    // nearly as the screen: the cards are as large as that allows.
+    readonly property real edge: 20 * Theme.unit
+    readonly property real wide: width - 2 * edge
+    readonly property real widest: (upright ? wide - gutter : width - 2 * side - numbers - 2 * Theme.gap) / Math.max(1, columns)
+
+    // The words above the cards. Upright, their line depends on no height.
+    readonly property real wordsSize: upright && Theme.textSize <= 1.15 ? Theme.size(38) : Theme.body
+    readonly property real wordsAt: 12 * Theme.unit
+    readonly property real wordsApart: 20 * Theme.unit
+    readonly property real wordsLine: (78 * Math.max(1, Theme.textSize) + 20) * Theme.unit + wordsApart
+    // Where the dots begin that show how far the visit is, or the screen ends.
+    readonly property real mostRight: width - (upright ? 1 : 3.5) * Theme.gap
+    // The way to the game stands above the cards, with the tray; or below them, where large words leave no room there.
+    readonly property real above: practiceWidth + progressWidth + skipWidth + (upright ? 0 : 240 * Theme.unit) + 5 * Theme.gap
+    readonly property bool skipsBelow: !broad && above > mostRight + Theme.gap
+
+    // The tray. On a wide screen it has two rows of larger places where the cards leave room for it.
+    readonly property bool tall: height - (182 + 70) * Math.max(1, Theme.textSize) * Theme.unit - rows * widest > 70 * Theme.unit
+    // On an upright screen it is a shelf.
+    readonly property int shelfLines: pairs > 12 ? 2 : 1
+    readonly property real shelfSlot: Math.floor(Math.min((pairs > 6 ? 80 : 74) * Theme.unit, wide / Math.max(1, Math.ceil(pairs / shelfLines))))
+    readonly property real shelf: wordsLine + shelfLines * shelfSlot + 8 * Theme.unit
+    // It stands further from the columns' numbers than the cards do, as they name the cards; but no card gets smaller
+    // by it.
+    readonly property real apart: upright ? 30 * Theme.unit : 0
+    // What is left with the fewest rows, below an announcement of one line.
+    readonly property real remains: height - lent - 20 * Theme.unit - shelf - numbers - 90 * Math.max(1, Theme.textSize) * Theme.unit - rows * widest
+    // Below two rows the cards stand lower, so that they are as far from the tray as from a short sentence. A long one
+    // covers no card.
+    readonly property real lowered: Math.min(24 * Theme.unit, 0.45 * lent)
+    // Two rows leave room for the two cards of a pair beside each other, as one row does in the practice. No card gets
+    // smaller by them.
+    readonly property real doubleSlot: Math.floor(Math.min(82 * Theme.unit, 0.475 * wide / Math.max(1, Math.ceil(pairs / 2))))
+    readonly property real doubled: 2 * doubleSlot - shelfSlot
+    readonly property bool doubles: upright && pairs > 7 && shelfLines === 1 && remains + lowered > doubled + 1.5 * apart
+    readonly property int lines: upright ? (doubles ? 2 : shelfLines) : tall ? 2 : 1
+    readonly property real strip: broad ? 0 : upright ? shelf + (doubles ? doubled : 0)
+        : (tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
+    readonly property real trayHeight: upright ? lines * (doubles ? doubleSlot : shelfSlot) : strip - 8 * Theme.unit
+    // The height of the words in one line, above the tray or beside it.
+    readonly property real wordsHigh: upright ? wordsLine - 12 * Theme.unit - wordsApart : trayHeight
+
+    // What stands above the cards and below them.
+    readonly property real footer: pillHeight + (upright ? 16 : 22) * Theme.unit + (practises && skipsBelow ? skipHeight + Theme.gap : 0)
+    readonly property real spare: Math.floor(height - lent - 20 * Theme.unit - strip - numbers - footer - rows * widest) - 1
+    // On an upright screen, what more there is lies below the tray: words and tray begin where those of the practice do.
+    readonly property real lower: upright ? Math.max(0, Math.min(24 * Theme.unit, (spare - apart) / 5)) : 0
+    readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
+        + Math.max(upright && Theme.textSize > 1.15 ? 18 * Theme.unit : 0, Math.min(apart + 5 * lower, spare))
+        + (doubles ? lowered : 0)
+    // How high the page has to be on an upright screen, for cells as wide as there is room for.
+    readonly property real wish: 52 * Theme.unit + shelf + apart + numbers + pillHeight + rows * widest
+
+    // The cells of the cards.
+    // A whole number, or the last column might not fit into the sum of all by a rounding error.
+    readonly property real fitting: Math.floor(Math.min(widest, (height - header - numbers - footer) / Math.max(1, rows)))
+    property real cell: 0
+    onFittingChanged: if (!resizes) fit()
+    onResizesChanged: if (!resizes) fit()
+    function fit() {
+        cell = fitting
+    }
+    // A pair that was just found has a frame of this thickness; frames of neighbours leave a clear strip between them.
+    readonly property real ring: Math.min(12 * Theme.unit, 0.05 * cell)
+    readonly property real framed: cell - 14 * Theme.unit
+
+    // The table, as large as all cells.
+    readonly property real tableWidth: cell * columns
+    readonly property real tableHeight: cell * rows
+    readonly property real tableX: Math.round((width - tableWidth + (upright ? gutter : numbers)) / 2)
+    readonly property real tableY: Math.round(header + numbers)
+    // Where the cards themselves begin and end.
+    readonly property real cardsBegin: tableX + margin * cell
+    readonly property real cardsEnd: tableX + tableWidth - margin * cell
+    // On an upright screen, what stands above the cards begins with their numbers and ends with a mark's frame around them.
+    readonly property real headLeft: tableX - gutter
+    readonly property real headRight: tableX + tableWidth
+    // The middle of the cards; upright, that of the page, as the face below it.
+    readonly property real middle: upright ? width / 2 : tableX + tableWidth / 2
+
+    // The middle of a cell, counted from the first.
+    function centre(location: int): point {
+        return Qt.point(tableX + (location % columns + 0.5) * cell,
+                        tableY + (Math.floor(location / columns) + 0.5) * cell)
+    }
+    // How much a card is scaled to have this width, and at most this.
+    function within(wide: real, most: real): real {
+        return Math.min(most, wide / Math.max(1, 0.962 * share * cell))
+    }
+}

@@ -1,0 +1,62 @@
+// The table below the cards: its rows and columns are numbered, and one of them is marked for a hint.
+pragma ComponentBehavior: Bound
+import QtQuick
+import "."
+
+Item {
+    id: table
+
+    required property BoardLayout boardLayout
+    required property int markRow
+    required property int markColumn
+    readonly property bool upright: boardLayout.upright
+
+    x: boardLayout.tableX
+    y: boardLayout.tableY
+    width: boardLayout.tableWidth
+    height: boardLayout.tableHeight
+
+    component Number: PlainText {
+        property bool marked: false
+        font { pixelSize: table.upright ? Theme.size(36) : Theme.body; bold: true }
+        color: marked ? Theme.deepAmber : Theme.faintInk
+        // Every card's name tells its row and column.
+        Accessible.ignored: true
+    }
+
+    Mark {
+        anchors.fill: parent
+        row: table.markRow
+        column: table.markColumn
+        cell: table.boardLayout.cell
+        arrow: (table.upright ? 18 : 28) * Theme.unit
+        apart: (table.upright ? 4 : 5) * Theme.unit
+    }
+    Repeater {
+        model: table.boardLayout.columns
+        Number {
+            required property int index
+            x: index * table.boardLayout.cell
+            // Above a mark's arrow, also in large letters.
+            y: Math.min(-table.boardLayout.numbers, -42 * Theme.unit - baselineOffset)
+            width: table.boardLayout.cell
+            text: index + 1
+            marked: table.markColumn === index
+            horizontalAlignment: Text.AlignHCenter
+        }
+    }
+    Repeater {
+        model: table.boardLayout.rows
+        Number {
+            required property int index
+            x: -(table.upright ? table.boardLayout.gutter : table.boardLayout.numbers)
+            y: index * table.boardLayout.cell
+            width: table.boardLayout.numbers - (table.upright ? 0 : 30 * Theme.unit)
+            height: table.boardLayout.cell
+            text: index + 1
+            marked: table.markRow === index
+            horizontalAlignment: table.upright ? Text.AlignLeft : Text.AlignHCenter
+            verticalAlignment: Text.AlignVCenter
+        }
+    }
+}
