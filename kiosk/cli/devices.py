@@ -31,14 +31,7 @@ from kiosk.robots.registry import create_robot
 from kiosk.robots.sound_device import Player, create_player
 from kiosk.robots.tts_engines import SpeechEngine, create_engine
 from kiosk.robots.tts_worker import SpeechSource
-from kiosk.robots.voice_packs import (
-    PackLabel,
-    VoicePack,
-    cache_folder,
-    import_recordings,
-    recording_name,
-    render_pack,
-)
+from kiosk.robots.voice_packs import PackLabel, VoicePack, cache_folder, import_recordings, recording_name, render_pack
 from kiosk.study.loader import read_study
 from kiosk.units import MS_PER_SECOND
 
