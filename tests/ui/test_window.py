@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.config import ASSETS
 from kiosk.experiment.questionnaire import Questionnaire
-from kiosk.ui.screens.shell import FIXED
+from kiosk.ui.screens.fixed_texts import FIXED
 from kiosk.ui.window import QML, ClockMode, RunMode, Window, WindowMode
 from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth, MakeBooth

@@ -1,4 +1,4 @@
-"""The window as a whole, and the fixed texts of its screens. It does not know what comes next."""
+"""The window as a whole: which screen is shown, and what lies over it."""
 
 from __future__ import annotations
 
@@ -10,108 +10,12 @@ from PySide6.QtQml import QmlElement
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import ConsentConfig
 from kiosk.experiment.events import SoundSelected, TextSize, TextSizeSelected
-
-FIXED = (
-    "about-continue",
-    "return-offer",
-    "return-title",
-    "return-go",
-    "return-new",
-    "return-welcome",
-    "return-as-new",
-    "consent-required",
-    "consent-optional",
-    "consent-agreed",
-    "consent-missing",
-    "consent-ready",
-    "consent-agree",
-    "consent-decline",
-    "consent-more",
-    "consent-less",
-    "age-line",
-    "age-yes",
-    "age-no",
-    "introduction-title",
-    "introduction-turn",
-    "introduction-match",
-    "introduction-help",
-    "introduction-continue",
-    "practice-title",
-    "practice-skip",
-    "game-begin",
-    "game-second",
-    "practice-second",
-    "practice-turning-back",
-    "practice-no-pair",
-    "practice-pair",
-    "game-found",
-    "result-title",
-    "result-pairs-label",
-    "result-moves-label",
-    "result-time-label",
-    "result-hints-label",
-    "result-line",
-    "result-continue",
-    "form-calm",
-    "form-next",
-    "form-not-applicable",
-    "form-skip",
-    "form-missing",
-    "form-skipped",
-    "form-refused",
-    "form-none",
-    "form-type",
-    "form-number",
-    "form-less",
-    "form-more",
-    "form-turned",
-    "keyboard-shift",
-    "keyboard-delete",
-    "keyboard-space",
-    "keyboard-done",
-    "keyboard-letters",
-    "keyboard-accents",
-    "keyboard-signs",
-    "debrief-take-home",
-    "debrief-take-home-scan",
-    "debrief-code",
-    "debrief-continue",
-    "thanks-title",
-    "thanks-continue",
-    "control-stop",
-    "control-language",
-    "control-text-size",
-    "control-sound-on",
-    "control-sound-off",
-    "control-say-again",
-    "control-back",
-    "stop-title",
-    "stop-yes",
-    "stop-no",
-    "scroll-more",
-    "still-there-title",
-    "still-there-line",
-    "still-there-yes",
-    "still-there-second",
-    "pause-title",
-    "wait-title",
-    "wait-line",
-    "replay-line",
-    "replay-differs",
-)
-"""Every message that QML shows as it stands; those with variables are filled in by the screens' objects."""
-
-
-def fixed_texts(catalogue: Catalogue) -> dict[str, str]:
-    """Return the fixed texts, by the names of their messages."""
-    return {message: catalogue.text(message) for message in FIXED}
-
+from kiosk.ui.screens.fixed_texts import fixed_texts
 
 QML_IMPORT_NAME = "Recollect"
 QML_IMPORT_MAJOR_VERSION = 1
 
 _TEXT_SCALES = {TextSize.NORMAL: 1.0, TextSize.LARGE: 1.15, TextSize.LARGEST: 1.3}
-
 
 _PARTS = (
     ("about", "age", "consent", "about_you"),
