@@ -7,8 +7,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, replace
-from functools import partial
-from itertools import count, product, repeat
+from itertools import count, repeat
 from math import isfinite
 from pathlib import Path
 from random import Random
@@ -30,7 +29,7 @@ from kiosk.cli.options import (
     study_option,
 )
 from kiosk.cli.terminal import counted, tell_line
-from kiosk.config import NO_ROBOT, STAGES, RobotConfig
+from kiosk.config import NO_ROBOT, STAGES
 from kiosk.experiment.events import Event
 from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.experiment.projections import count_speech, waiting_shares
@@ -47,7 +46,7 @@ from kiosk.ui.rehearsal import CoversRehearsal, Rehearsal
 from kiosk.ui.rehearsed_day import ProcessUsage, day_summary, draw_visitors, rehearse_day
 from kiosk.ui.screenshots import LAYOUTS, Screenshots, layout_of, make_folder, resize
 from kiosk.ui.session_runner import ConditionAssigner, RunContext
-from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile, MemoryTraits, ReadingDriver, UiTimeout
+from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile, MemoryTraits, UiTimeout
 from kiosk.ui.window import ClockMode, RunMode, WindowMode, check_screen
 
 LARGEST_SEED = 2**63 - 1
@@ -172,7 +171,7 @@ def rehearse(
     origin = RunContext(code_commit(), kind=SessionKind.SIMULATED, seed=lambda: seed, condition=fixed)
     with (
         guarded() as beat,
-        _recorder(data, mode) as recorder,
+        open_recorder(data, mode) as recorder,
         App(mode, recorder, ConditionAssigner(prepared, recorder, origin), beat=beat) as app,
     ):
         pictures = _pictures(app, mode, shots, layout if headless and layout != BOTH else None, folders)
@@ -256,7 +255,7 @@ def _shoot_sheet(
     with (
         TemporaryDirectory() as unkept,
         guarded() as beat,
-        _recorder(Path(unkept), mode) as recorder,
+        open_recorder(Path(unkept), mode) as recorder,
         App(mode, recorder, ConditionAssigner(study, recorder, origin), beat=beat) as app,
     ):
         resize(app.window, layout)
@@ -288,7 +287,7 @@ def _shoot_covers(
     with (
         TemporaryDirectory() as unkept,
         guarded() as beat,
-        _recorder(Path(unkept), mode) as recorder,
+        open_recorder(Path(unkept), mode) as recorder,
         App(mode, recorder, ConditionAssigner(study, recorder, origin), beat=beat) as app,
     ):
         resize(app.window, before.layout)
@@ -297,65 +296,6 @@ def _shoot_covers(
             CoversRehearsal(app, seed, pictures, character).run()
         if app.stop_requested:
             raise click.Abort
-
-
-SIZES = ((1280, 720), (1920, 1080), (1080, 1920))
-"""The windows that every page is tried in, in pixels: the smallest, the usual one, and one that stands upright."""
-
-
-def walk_pages(study: StudyConfig) -> Iterator[tuple[bool, str]]:
-    """Go through a session in every language and window; yields whether something is a fault, and a sentence about it.
-
-    Nothing is kept, and no robot is looked for.
-    """
-    settings = study.settings
-    alone = settings.model_copy(update={"robot": RobotConfig()}).with_base_dir(settings)
-    study = read_study(alone)
-    fixed = study.condition(alone.assistance.condition)
-    origin = RunContext(code_commit(), kind=SessionKind.SIMULATED, seed=lambda: 1, condition=fixed)
-    mode = RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL)
-    for language, (width, height) in product(study.languages, SIZES):
-        place = f"in {language!r}, on a window of {width} x {height}"
-        cut: dict[str, None] = {}
-        stuck = _walk(study, mode, origin, language, (width, height), cut)
-        if stuck is not None:
-            yield True, f"{place}, a session cannot go on: {stuck}"
-        for text in cut:
-            shown = text if len(text) <= _SHOWN_CHARACTERS else f"{text[:_SHOWN_CHARACTERS]}..."
-            yield False, f"{place}, a text is cut off: {shown!r}; make it shorter"
-
-
-_SHOWN_CHARACTERS = 60
-
-
-def _walk(
-    study: StudyConfig,
-    mode: RunMode,
-    origin: RunContext,
-    language: str,
-    size: tuple[int, int],
-    cut: dict[str, None],
-) -> UiTimeout | None:
-    """Go through one session, and add texts that are cut off to ``cut``; return why it stuck."""
-    with (
-        TemporaryDirectory() as unkept,
-        guarded() as beat,
-        _recorder(Path(unkept), mode) as recorder,
-        App(mode, recorder, ConditionAssigner(study, recorder, origin), beat=beat) as app,
-    ):
-        app.window.resize(*size)
-        screens = app.screens
-        hand = partial(
-            ReadingDriver,
-            page=lambda: (screens.kiosk.shown, tuple(item.id for item in screens.form.shown)),
-            tell=lambda text: cut.update({text: None}),
-        )
-        visitor = BehaviourProfile(BehaviourKind.COMPLETES, Stage.GAME, language, MemoryTraits())
-        try:
-            Rehearsal(app, 1, None, visitor, hand).run()
-        except UiTimeout as stuck:
-            return stuck
-    return None
 
 
 HESITATES = 0.08
@@ -392,7 +332,7 @@ def _mode(speed: float | None, *, headless: bool) -> RunMode:
     return RunMode(display, ClockMode.WALL, speed or 1.0)
 
 
-def _recorder(data: Path, mode: RunMode) -> Recorder:
+def open_recorder(data: Path, mode: RunMode) -> Recorder:
     """Open the recorder; where time is virtual it stands still while another program holds the database."""
     return Recorder(data, wait_ms=WAIT_MS if mode.pace is ClockMode.VIRTUAL else 0)
 
@@ -415,7 +355,7 @@ def _rehearse_day(
     begun = monotonic()
     with (
         guarded() as beat,
-        _recorder(data, mode) as recorder,
+        open_recorder(data, mode) as recorder,
         App(mode, recorder, ConditionAssigner(study, recorder, origin), robot, beat) as app,
     ):
         holdings: list[ProcessUsage] = []

@@ -155,7 +155,7 @@ def check_fonts(read: StudyConfig) -> list[str]:
 
 def check_pages(read: StudyConfig) -> list[str]:
     """Raise UserInputError if a session does not come to its end; returns the texts that are cut off."""
-    from kiosk.cli.rehearse import walk_pages
+    from kiosk.cli.page_walk import walk_pages
 
     found = list(walk_pages(read))
     faults = [sentence for is_fault, sentence in found if is_fault]

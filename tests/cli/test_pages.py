@@ -97,9 +97,9 @@ NAMED = ("data-set", "study", "simulated", "both", "DIR", "booth-1", "booth-2", 
 """Folders with most of the files of a desk; a command reads them only if it names them."""
 
 SMALLEST_WINDOW = """
-import kiosk.cli.rehearse
+import kiosk.cli.page_walk
 from kiosk.cli.main import main
-kiosk.cli.rehearse.SIZES = kiosk.cli.rehearse.SIZES[:1]
+kiosk.cli.page_walk.SIZES = kiosk.cli.page_walk.SIZES[:1]
 main()
 """
 """The program, which goes through pages in one window for each language; tests/ui/test_walked_pages.py has others."""

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from kiosk.cli import rehearse
+from kiosk.cli import page_walk
 from kiosk.config import Settings
 from kiosk.study.loader import read_study
 
@@ -27,14 +27,14 @@ kind = "furhat"
 def _one_size(monkeypatch: pytest.MonkeyPatch, qapp: object) -> None:
     """Try one window, without a guard that would end the tests' own process for the memory of all of them."""
     del qapp
-    monkeypatch.setattr(rehearse, "guarded", lambda: nullcontext(lambda: None))
-    monkeypatch.setattr(rehearse, "SIZES", ((1280, 720),))
+    monkeypatch.setattr(page_walk, "guarded", lambda: nullcontext(lambda: None))
+    monkeypatch.setattr(page_walk, "SIZES", ((1280, 720),))
 
 
 def walked(folder: Path, more: str = "") -> list[tuple[bool, str]]:
     """Return what was found in a study."""
     (folder / "study.toml").write_text(STUDY + more, "utf-8")
-    return list(rehearse.walk_pages(read_study(Settings.read(folder / "study.toml"))))
+    return list(page_walk.walk_pages(read_study(Settings.read(folder / "study.toml"))))
 
 
 @pytest.mark.usefixtures("_one_size")
@@ -54,6 +54,6 @@ def test_a_page_that_does_not_fit_and_cannot_be_left_is_told_with_language_and_w
 def test_every_language_is_tried_in_every_window(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "study.toml").write_text(STUDY.replace('["en"]', '["en", "it"]'), "utf-8")
     tried: list[tuple[object, ...]] = []
-    monkeypatch.setattr(rehearse, "_walk", lambda *given: tried.append(given[3:5]))
-    assert list(rehearse.walk_pages(read_study(Settings.read(tmp_path / "study.toml")))) == []
+    monkeypatch.setattr(page_walk, "_walk", lambda *given: tried.append(given[3:5]))
+    assert list(page_walk.walk_pages(read_study(Settings.read(tmp_path / "study.toml")))) == []
     assert tried == list(product(("en", "it"), ((1280, 720), (1920, 1080), (1080, 1920))))
