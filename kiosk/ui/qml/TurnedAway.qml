@@ -48,7 +48,7 @@ Item {
         y: away.wide ? back.y + (back.height - height) / 2
             : away.windowLayout.cornerY + (away.windowLayout.corner.height - height) / 2
         // In two lines on a wide page, beside titles of many words.
-        width: away.wide ? away.form.folded([{ text }], "text", font.pixelSize) : Math.ceil(measured.advanceWidth)
+        width: away.wide ? away.form.widths.column([text], font.pixelSize) : Math.ceil(measured.advanceWidth)
         visible: back.visible && away.tells
         text: away.why
         wrapMode: away.wide ? Text.WordWrap : Text.NoWrap

@@ -7,82 +7,57 @@ import ".."
 Item {
     id: box
 
-    required property var item          // as the form's object describes it
+    required property int index
+    required property var modelData
+    // As the form's object describes it.
+    readonly property var item: modelData
     required property FormScreen form
     required property KioskScreen kiosk
     required property var words
-    required property bool alone
-    required property bool dense
-    required property bool tight        // whether there is little height for the page
-    // Whether there is much height for it.
-    property bool large: false
-    // Whether its scale stands beside its text, as in a table, and whether the words for the ends head it.
-    property bool beside: false
-    property bool headed: true
-    // Whether every row has the words for its ends, below its own scale.
-    property bool own: false
-    // How the row looks if they stand at both sides of the scale instead, level with it; null if they do not.
-    property var flank: null
-    // Whether its scale of many points stands below its question in such a row.
-    readonly property bool crowned: (flank?.over ?? false) && item.kind === "likert" && item.points > 7
-    // How high a row is, and how much of it is above and below that.
-    property real rowHeight: 0
-    property real rowMargin: 0
-    // How much further than usual it is from the item before it.
-    property real parting: 0
-    // Whether a number stands beside its text, at the end of the card.
-    property bool inline: false
+    required property PageShape page
+    required property RatingRows rows
+    required property PlainQuestions questions
+    // How much of what can be added to the distances of this page is added, from 0 to 1, and how much higher than usual
+    // options are.
+    property real loosened: 0
+    property real grown: 0
     // Whether the keys on the screen type into it.
     property bool keyed: false
-    // How large its text is then.
-    property real rowText: Theme.body
-    // How much of a row is its text's and its scale's.
-    property real textWidth: 0
-    property real scaleWidth: 0
-    // Whether an upright page of ratings has height for large distances between a question and its scale.
-    property bool ample: false
-    // Large texts need that height themselves.
-    readonly property bool airy: large && Theme.textSize <= 1.15
+
+    // Whether its scale stands beside its text, and whether the words for the ends head it as in a table.
+    readonly property bool beside: rows.beside(item)
+    readonly property bool headed: rows.heads(index)
+    // Whether its scale of many points stands below its question although the others do not.
+    readonly property bool crowned: rows.crowned(item)
+    // How much further than usual it is from the item before it.
+    readonly property real parted: rows.parted(index)
+    // Whether a number stands beside its text, at the end of the card, and what it may be in the question's line.
+    readonly property bool inline: questions.inline(item)
+    readonly property bool ranged: questions.ranged(item)
+    // Whether its options stand in columns.
+    readonly property bool columned: questions.columns !== null
     signal entered(Item field)
 
     readonly property var answer: form.answers[item.id]
     readonly property bool refused: form.refused.includes(item.id)
     readonly property bool missed: form.missing.includes(item.id) || refused
-    // How large the options of its page are in columns, and how high; 0 where they do not stand so.
-    property real paired: 0
-    property real pairHeight: 0
-    // How many of them stand in each row where they do not stand in halves.
-    property var shared: []
-    // How large the questions of such a page are.
-    property real asking: 0
-    // Whether what a number may be has room in its question's line there.
-    property bool ranged: false
-    // Whether there is room enough on its page.
-    property bool calm: false
-    // How much of what can be added to the distances of this page is added, from 0 to 1.
-    property real loosened: 0
-    // How large the options of an upright page are, how many rows they have, and how much higher than usual these are.
-    property real optionSize: Theme.size(34)
-    property real grown: 0
-    // Whether they are given the height that margins have elsewhere.
-    property bool easy: false
-    readonly property int rows: choices?.rows ?? 0
+    readonly property int optionRows: choices?.rows ?? 0
     readonly property ChoiceList choices: way.item as ChoiceList
     // How high it is without all that, and how much can be added to the distances.
     readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asks + (way.active ? usualSpacing + (choices?.least ?? way.height) : 0)) + 2 * usualMargin
     // How much height its question and its scale leave of what two lines and a scale of five points take: on such a page
     // all cards are as high, and cards and scales stand at the same places on all pages.
-    readonly property real lacks: ample ? Math.max(0, Math.ceil((1 + question.lineHeight) * lineOf.height) - told.height) : 0
-    readonly property real leaves: lacks + (ample ? 2 * ((way.item as PointScale)?.inset ?? 0) : 0)
+    readonly property real lacks: page.ample ? Math.max(0, Math.ceil((1 + question.lineHeight) * lineOf.height) - told.height) : 0
+    readonly property real leaves: lacks + (page.ample ? 2 * ((way.item as PointScale)?.inset ?? 0) : 0)
     readonly property real asks: told.height + leaves
-    readonly property real addable: alone || beside ? 0 : (ample ? 48 : 32) * Theme.unit
-    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : ample ? Theme.textSize > 1 ? 18 : 36 : easy ? 18 : airy ? 22 : paired > 0 ? 12 : calm ? 14 : 8) * Theme.unit
+    readonly property real addable: page.alone || beside ? 0 : (page.ample ? 48 : 32) * Theme.unit
+    readonly property real usualSpacing: page.alone ? 2 * Theme.gap : (page.dense ? 4 : page.ample ? Theme.textSize > 1 ? 18 : 36 : page.easy ? 18 : page.airy ? 22 : columned ? 12 : page.calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
-    readonly property real usualMargin: alone ? 0 : own ? Math.max(10 * Theme.unit, rowMargin - taken / 2) : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : ample ? 12 : easy ? inline ? 28 : 30 : airy ? 26 : paired > 0 ? inline ? ranged ? 16 : 8 : 16 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
+    readonly property real usualMargin: page.alone ? 0 : rows.own ? Math.max(10 * Theme.unit, rows.margin - taken / 2) : (beside ? page.dense ? 9 : 20 : page.dense ? 8 : page.tight ? 10 : page.ample ? 12 : page.easy ? inline ? 28 : 30 : page.airy ? 26 : columned ? inline ? ranged ? 16 : 8 : 16 : page.largeText ? 13 : 17) * Theme.unit
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
-    readonly property real taken: flank ? Math.max(0, told.height - rowHeight) : 0
+    readonly property real taken: rows.flank ? Math.max(0, told.height - rows.height) : 0
     // Letters have some air above them already; what stands below them does not.
-    readonly property real raised: crowned ? 5 * Theme.unit : alone || beside || inline || dense ? 0 : 4 * Theme.unit
+    readonly property real raised: crowned ? 5 * Theme.unit : page.alone || beside || inline || page.dense ? 0 : 4 * Theme.unit
     readonly property var ways: ({
         likert: points, differential: points, pictures: points, slider: line, single: choice, multiple: choice,
         integer: number, text: letters, page: null
@@ -124,15 +99,15 @@ Item {
         }
     }
     // The words for the ends stand above the first card of a table.
-    readonly property real head: parting + (beside && headed && !own ? ((way.item as PointScale)?.words ?? 0) + 8 * Theme.unit : 0)
+    readonly property real head: parted + (beside && headed && !rows.own ? ((way.item as PointScale)?.words ?? 0) + 8 * Theme.unit : 0)
 
     height: head + content.height + 2 * margin
 
     Rectangle {
         anchors { fill: parent; topMargin: box.head }
         radius: Theme.radius
-        color: box.alone ? "transparent" : Theme.white
-        border { color: box.missed ? Theme.deepAmber : box.crowned ? Qt.tint(Theme.white, Qt.alpha(Theme.sea, 0.5)) : Theme.edge; width: box.alone ? 0 : (box.missed ? 5 : 3) * Theme.unit }
+        color: box.page.alone ? "transparent" : Theme.white
+        border { color: box.missed ? Theme.deepAmber : box.crowned ? Qt.tint(Theme.white, Qt.alpha(Theme.sea, 0.5)) : Theme.edge; width: box.page.alone ? 0 : (box.missed ? 5 : 3) * Theme.unit }
     }
 
     FontMetrics {
@@ -141,7 +116,7 @@ Item {
     }
     Column {
         id: content
-        anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; verticalCenterOffset: box.head / 2 - box.raised; margins: box.alone ? 0 : (box.easy ? 1.5 : 1.2) * Theme.gap }
+        anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; verticalCenterOffset: box.head / 2 - box.raised; margins: box.page.alone ? 0 : box.page.inset }
         spacing: box.usualSpacing
 
         Item {
@@ -152,29 +127,29 @@ Item {
             // How high the words are that head the points of a table.
             readonly property real heads: (way.item as PointScale)?.head ?? 0
             // The text is level with the points. With the light words below them, these stand a little above the middle.
-            readonly property real axis: box.flank ? middle : box.own ? Math.max((height - way.height + scaled) / 2 + 0.3 * box.rowMargin, told.height / 2 - 8 * Theme.unit) : middle
+            readonly property real axis: box.rows.flank ? middle : box.rows.own ? Math.max((height - way.height + scaled) / 2 + 0.3 * box.rows.margin, told.height / 2 - 8 * Theme.unit) : middle
             // Rows of one line and of two are as high; with words for its ends it is as high as a scale and a line of words.
-            readonly property real middle: Math.max(box.own ? box.rowHeight : scaled, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
-            height: box.crowned ? box.flank.tall : box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : box.asks + (way.active ? content.spacing + way.height : 0)
+            readonly property real middle: Math.max(box.rows.own ? box.rows.height : scaled, told.height, box.beside && !box.page.dense ? 2 * 1.37 * box.rows.text : 0) / 2
+            height: box.crowned ? box.rows.flank.crownedHeight : box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : box.asks + (way.active ? content.spacing + way.height : 0)
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
                 y: box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : (box.lacks + box.leaves) / 2
-                width: box.beside && !box.crowned ? box.textWidth : box.inline ? asked.width - 470 * Theme.unit : asked.width
-                spacing: box.inline ? 0 : box.ample ? 4 * Theme.unit : content.spacing
+                width: box.beside && !box.crowned ? box.rows.textWidth : box.inline ? asked.width - box.questions.fieldWidth : asked.width
+                spacing: box.inline ? 0 : box.page.ample ? 4 * Theme.unit : content.spacing
                 Balanced {
                     id: question
                     width: parent.width
-                    doubled: box.ample && Theme.textSize <= 1
+                    doubled: box.page.ample && Theme.textSize <= 1
                     text: box.item.shown
                     Accessible.name: box.item.text
                     font {
-                        pixelSize: box.item.kind === "page" ? Theme.size(36) : box.alone ? Theme.heading
-                            : box.beside || (box.item.kind === "slider" && box.rowText > 0) ? box.rowText
-                            : box.paired > 0 ? box.asking : box.dense ? Theme.reading : box.easy ? Theme.size(36) : box.airy ? Theme.size(38) : Theme.body
+                        pixelSize: box.item.kind === "page" ? Theme.size(36) : box.page.alone ? Theme.heading
+                            : box.beside || (box.item.kind === "slider" && box.rows.text > 0) ? box.rows.text
+                            : box.columned ? box.questions.asking : box.page.dense ? Theme.reading : box.page.easy ? Theme.size(36) : box.page.airy ? Theme.size(38) : Theme.body
                         bold: box.item.kind !== "page"
                     }
-                    lineHeight: box.item.kind === "page" ? 1.15 : box.ample ? 0.92 : 1
+                    lineHeight: box.item.kind === "page" ? 1.15 : box.page.ample ? 0.92 : 1
                     horizontalAlignment: Text.AlignLeft
                 }
                 // What a number may be, below the question where the number stands beside that.
@@ -183,7 +158,7 @@ Item {
                     visible: box.inline && !box.ranged && text !== ""
                     text: box.item.range ?? ""
                     horizontalAlignment: Text.AlignLeft
-                    font.pixelSize: box.large || box.paired > 0 ? Theme.size(32) : Theme.small
+                    font.pixelSize: box.page.large || box.columned ? Theme.size(32) : Theme.small
                     wrapMode: Text.Wrap
                     color: Theme.faintInk
                 }
@@ -218,9 +193,9 @@ Item {
             }
             Loader {
                 id: way
-                readonly property real room: box.beside && !box.crowned ? box.scaleWidth : asked.width
+                readonly property real room: box.beside && !box.crowned ? box.rows.scaleWidth : asked.width
                 x: Theme.across(box.crowned ? 0 : box.beside ? asked.width - room : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.crowned ? asked.height - height : box.flank ? asked.middle - height / 2 : box.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.y + told.height + content.spacing
+                y: box.crowned ? asked.height - height : box.rows.flank ? asked.middle - height / 2 : box.rows.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.y + told.height + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
@@ -234,7 +209,7 @@ Item {
             active: box.item.source !== ""
             visible: active
             Component.onCompleted: if (active) setSource(box.item.source, {
-                item: box.item, answer: box.answer ?? null, theme: Theme, alone: box.alone
+                item: box.item, answer: box.answer ?? null, theme: Theme, alone: box.page.alone
             })
             onLoaded: drawn.answered.connect(value => box.form.give(box.item.id, value))
         }
@@ -250,7 +225,7 @@ Item {
                 font.pixelSize: Theme.small
                 leftPadding: 18 * Theme.unit
                 rightPadding: 18 * Theme.unit
-                verticalPadding: (box.dense ? 4 : 8) * Theme.unit
+                verticalPadding: (box.page.dense ? 4 : 8) * Theme.unit
                 Accessible.role: Accessible.CheckBox
                 Accessible.name: `${box.item.text} ${words}`
                 onClicked: box.form.dismiss(box.item.id)
@@ -294,10 +269,10 @@ Item {
             width: way.room
             beside: box.beside
             headed: box.headed
-            own: box.own
-            flank: box.flank
+            own: box.rows.own
+            flank: box.rows.flank
             crowned: box.crowned
-            lift: box.own ? 0 : box.margin + asked.middle - size / 2 + 8 * Theme.unit
+            lift: box.rows.own ? 0 : box.margin + asked.middle - size / 2 + 8 * Theme.unit
             item: box.item.id
             label: box.item.text
             points: box.item.points
@@ -305,11 +280,11 @@ Item {
             leftEnd: box.item.left
             rightEnd: box.item.right
             value: box.answer ?? 0
-            alone: box.alone
-            dense: box.dense
-            tight: box.tight
-            large: box.large
-            even: box.ample
+            alone: box.page.alone
+            dense: box.page.dense
+            tight: box.page.tight
+            large: box.page.large
+            even: box.page.ample
             onChosen: point => box.form.rate(box.item.id, point)
         }
     }
@@ -317,9 +292,9 @@ Item {
         id: line
         SliderScale {
             width: way.room
-            own: box.own
-            flank: box.flank
-            tall: box.rowHeight + 2 * box.rowMargin
+            own: box.rows.own
+            flank: box.rows.flank
+            tall: box.rows.height + 2 * box.rows.margin
             item: box.item.id
             label: box.item.text
             lowest: box.item.lowest
@@ -329,31 +304,31 @@ Item {
             none: box.words["form-none"]
             answered: box.answer !== undefined
             given: box.answer ?? 0
-            alone: box.alone
-            dense: box.dense || box.tight || (Theme.textSize > 1.15 && !box.large)
-            large: box.large && !box.alone
+            alone: box.page.alone
+            dense: box.page.dense || box.page.tight || (box.page.largeText && !box.page.large)
+            large: box.page.large && !box.page.alone
             onChosen: value => box.form.rate(box.item.id, value)
         }
     }
     Component {
         id: choice
         ChoiceList {
-            width: box.alone ? Math.min(content.width, 860 * Theme.unit) : content.width
+            width: box.page.alone ? Math.min(content.width, 860 * Theme.unit) : content.width
             item: box.item.id
             label: box.item.text
             options: box.item.options
             several: box.item.kind === "multiple"
             chosen: box.answer === undefined ? [] : several ? box.answer : [box.answer]
-            alone: box.alone
+            alone: box.page.alone
             dense: box.form.items.length > 3
-            large: box.airy
-            size: box.optionSize
+            large: box.page.airy
+            size: box.questions.optionSize
             grown: box.grown
-            easy: box.easy
-            paired: box.paired
-            shared: box.shared
-            gridGap: (box.paired > 0 ? 16 : box.calm ? 18 : 12) * Theme.unit
-            usual: box.paired > 0 ? box.pairHeight : (box.tight || (Theme.textSize > 1.15 && !box.large) || box.form.items.length > 3 ? 62 : box.airy ? 84 : 76) * Theme.unit
+            easy: box.page.easy
+            paired: box.questions.columns?.size ?? 0
+            shared: box.questions.shared(box.item)
+            gridGap: (box.columned ? 16 : box.page.calm ? 18 : 12) * Theme.unit
+            usual: box.questions.columns?.height ?? (box.page.tight || (box.page.largeText && !box.page.large) || box.form.items.length > 3 ? 62 : box.page.airy ? 84 : 76) * Theme.unit
             onPicked: option => several ? box.form.toggle(box.item.id, option) : box.form.choose(box.item.id, option)
         }
     }

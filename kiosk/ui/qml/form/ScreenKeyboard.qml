@@ -12,21 +12,14 @@ Rectangle {
 
     property TypedField field: null
     // What the field belongs to.
-    property Item card: null
+    property FormItem card: null
     required property FormScreen form
     required property var words
-    // Where a number's keys stand.
-    required property point place
-    // How much width they have beside a wide page or over an upright one, and how far from the cards they are.
-    property real spare: 0
-    property real away: 0
-    // How much height they have over an upright page, above or below their card.
-    property real open: 0
-    // How much of it the cards that they cover take.
-    property real covers: 0
-    // Where in the page the middle of the field is, and whether nothing stands between the field and the keys.
-    property point aim
-    property bool near: false
+    // Where a number's keys stand, and how much room they have.
+    required property KeyPlace where
+    readonly property point place: where.at(width, height, grand)
+    // How far they are from the cards.
+    readonly property real away: where.awayFrom(x, width)
     signal done()
 
     // A keyboard is not turned round with the page.
@@ -37,7 +30,7 @@ Rectangle {
     property string shown: "letters"
     readonly property bool numbers: field !== null && field.digits
     // Whether a number's keys stand in rows of three across an upright screen's width, or in two rows where height lacks.
-    readonly property bool grand: numbers && broad && open >= 544 * Theme.unit
+    readonly property bool grand: numbers && broad && where.open >= 544 * Theme.unit
     readonly property bool flat: numbers && broad && !grand && !field?.minus
     readonly property bool wideKeys: grand || numbers && roomy
     // Whether the word that ends typing has room beside the 0, as on a telephone's keys.
@@ -53,12 +46,12 @@ Rectangle {
     readonly property bool broad: parent.width < parent.height
     // Or a wide screen's margin beside it.
     readonly property bool roomy: Window.width - parent.width >= 440 * Theme.unit
-    readonly property real keyWidth: numbers ? flat ? fitting(spare - 190 * Theme.unit - gap, 5, 90, 160)
-        : grand ? fitting(spare, 3, 108, 420) : broad ? 150 * Theme.unit : roomy ? fitting(spare, 3, 108, 160) : 80 * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
+    readonly property real keyWidth: numbers ? flat ? fitting(where.spare - 190 * Theme.unit - gap, 5, 90, 160)
+        : grand ? fitting(where.spare, 3, 108, 420) : broad ? 150 * Theme.unit : roomy ? fitting(where.spare, 3, 108, 160) : 80 * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
     readonly property real keyHeight: grand ? Math.min(270 * Theme.unit, Math.floor((tall - 2 * margin + gap) / (ends ? 4 : 5) - gap))
         : (numbers ? (flat ? 140 : roomy ? (ends ? 80 : 64) : 68) : 60) * Theme.unit
     // How high large keys are with their edge: they end where the cards do, and cut none of these.
-    readonly property real tall: Math.min(open, Math.max(covers, 684 * Theme.unit))
+    readonly property real tall: Math.min(where.open, Math.max(where.covers, 684 * Theme.unit))
     // How large the words of a number's keys are.
     readonly property real wording: grand ? Theme.size(48) : flat ? Theme.size(42) : Theme.body
     TextMetrics {
@@ -68,8 +61,8 @@ Rectangle {
     }
 
     // Whether they point at their field, at one side of it.
-    readonly property bool points: numbers && (broad ? aim.x > x + radius + 36 * Theme.unit && aim.x < x + width - radius - 36 * Theme.unit
-        : (x >= parent.width || x < 0) && aim.y > y + radius + 24 * Theme.unit && aim.y < y + height - radius - 24 * Theme.unit)
+    readonly property bool points: numbers && (broad ? where.aim.x > x + radius + 36 * Theme.unit && where.aim.x < x + width - radius - 36 * Theme.unit
+        : (x >= parent.width || x < 0) && where.aim.y > y + radius + 24 * Theme.unit && where.aim.y < y + height - radius - 24 * Theme.unit)
 
     // How wide so many keys in a row are in this room, within these units.
     function fitting(wide: real, many: int, least: real, most: real): real {
@@ -77,7 +70,7 @@ Rectangle {
         return Math.floor(Math.max(least * Theme.unit, Math.min(most * Theme.unit, each)))
     }
 
-    width: grand ? Math.max(spare, keys.width + 2 * margin) : numbers ? keys.width + 2 * margin : parent.width
+    width: grand ? Math.max(where.spare, keys.width + 2 * margin) : numbers ? keys.width + 2 * margin : parent.width
     height: grand && keyHeight < 270 * Theme.unit ? tall : keys.height + 2 * margin
     x: numbers ? place.x : 0
     y: numbers ? place.y : parent.height - height
@@ -146,15 +139,15 @@ Rectangle {
     Shape {
         id: tail
         visible: keyboard.points
-        readonly property bool after: keyboard.broad ? keyboard.aim.y > keyboard.y : keyboard.x < 0
+        readonly property bool after: keyboard.broad ? keyboard.where.aim.y > keyboard.y : keyboard.x < 0
         // From the keys to the field's edge; 0 where it is not for that.
-        readonly property real reach: keyboard.broad || !keyboard.near || !keyboard.field || after ? 0
-            : keyboard.x - keyboard.aim.x - keyboard.field.settled / 2
+        readonly property real reach: keyboard.broad || !keyboard.card?.inline || !keyboard.field || after ? 0
+            : keyboard.x - keyboard.where.aim.x - keyboard.field.settled / 2
         width: reach > 0 ? reach : keyboard.broad ? Math.min(32 * Theme.unit, keyboard.away - 2 * Theme.unit)
             : Math.max(30 * Theme.unit, Math.min(96 * Theme.unit, keyboard.away))
         height: keyboard.broad ? 2 * width : 48 * Theme.unit
-        x: keyboard.broad ? keyboard.aim.x - keyboard.x - width / 2 : after ? keyboard.width : -width
-        y: keyboard.broad ? (after ? keyboard.height + width / 2 : -width / 2) - height / 2 : keyboard.aim.y - keyboard.y - height / 2
+        x: keyboard.broad ? keyboard.where.aim.x - keyboard.x - width / 2 : after ? keyboard.width : -width
+        y: keyboard.broad ? (after ? keyboard.height + width / 2 : -width / 2) - height / 2 : keyboard.where.aim.y - keyboard.y - height / 2
         rotation: (keyboard.broad ? 90 : 0) + (after ? 180 : 0)
         ShapePath {
             fillColor: keyboard.color
@@ -215,7 +208,7 @@ Rectangle {
         Flow {
             id: others
             visible: !keyboard.ends
-            readonly property real wish: keyboard.flat ? Math.max(190 * Theme.unit, Math.floor(keyboard.spare - 2 * keyboard.margin - 5 * (keyboard.keyWidth + keyboard.gap))) : keyboard.numbers ? 3 * keyboard.keyWidth + 2 * keyboard.gap : keyboard.room - 2 * Theme.gap
+            readonly property real wish: keyboard.flat ? Math.max(190 * Theme.unit, Math.floor(keyboard.where.spare - 2 * keyboard.margin - 5 * (keyboard.keyWidth + keyboard.gap))) : keyboard.numbers ? 3 * keyboard.keyWidth + 2 * keyboard.gap : keyboard.room - 2 * Theme.gap
             width: keyboard.numbers ? wish : Math.min(wish, implicitRow)
             readonly property real implicitRow: {
                 let sum = -spacing

@@ -1,0 +1,66 @@
+// What a page of a form asks and how much room there is for it: everything on the page is laid out by this.
+import QtQuick
+import Recollect
+import ".."
+
+QtObject {
+    id: page
+
+    required property FormScreen form
+    required property WordWidths widths
+    required property bool upright
+    // Whether the helper stands beside the page.
+    required property bool accompanied
+    // How wide a card is, and how much height there is for all of them.
+    required property real column
+    required property real room
+
+    readonly property var items: form.items
+    readonly property bool alone: items.length === 1
+    readonly property bool dense: items.length > 4
+    // Whether there is little height for what stands on the page.
+    readonly property bool tight: room < 720 * Theme.unit
+    // Whether there is much.
+    readonly property bool large: upright && !dense
+    // Large texts need the room that distances have elsewhere.
+    readonly property bool largeText: Theme.textSize > 1.15
+    readonly property bool airy: large && !largeText
+
+    // Whether there is nothing but ratings on the page.
+    readonly property bool rates: items.every(item => scales(item) || item.kind === "slider")
+    // Whether there are just a few plain questions, and room for them.
+    readonly property bool few: !tight && !largeText && items.length <= 3
+        && items.every(item => ["integer", "single", "text"].includes(item.kind) && !item.exempts)
+    // Whether they stand beside the helper, and distances may grow.
+    readonly property bool calm: accompanied && few
+    // Whether they have an upright page, whose height is for large options.
+    readonly property bool easy: few && upright && !alone
+    // Whether a few ratings have an upright page.
+    readonly property bool rated: airy && !alone && rates
+    // Whether it has height for large distances between a question and its scale, even with two lines in each card.
+    readonly property bool ample: rated && items.length * (widths.leading * (2 * Theme.size(38) + Theme.size(30))
+        + (Theme.textSize > 1 ? 194 : 202) * Theme.unit) <= room - lead
+
+    // Whether the page says which of the form's pages it is, and whether a line above the cards shows that too.
+    readonly property bool numbered: form.progress !== ""
+    readonly property bool lined: upright && numbered
+    // How far below that line the first card begins.
+    readonly property real lead: lined && !largeText ? 28 * Theme.unit : 0
+    // How far cards are from each other at least.
+    readonly property real gap: (dense || tight ? 8 : 12) * Theme.unit
+    // How far the content of a card is from its left and right edges, and what that leaves of its width.
+    readonly property real inset: (easy ? 1.5 : 1.2) * Theme.gap
+    readonly property real inner: column - 2 * inset
+
+    function scales(item: var): bool {
+        return item.kind === "likert" && !item.exempts
+    }
+    // The items that are not hidden. No property: one of its own would for a moment be that of the page before.
+    function seen(): var {
+        return items.filter(item => !form.hidden.includes(item.id))
+    }
+    // The item that is seen before this one, or null.
+    function before(at: int): var {
+        return items.slice(0, at).filter(item => !form.hidden.includes(item.id)).pop() ?? null
+    }
+}

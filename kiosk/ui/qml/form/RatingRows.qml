@@ -1,0 +1,138 @@
+// How a wide page lays out its ratings as rows, each scale beside its question. What is tried, best first:
+//
+// 1. The words for the ends of a scale stand at both sides of it (flanked).
+// 2. They stand below it (own).
+// 3. They stand above the first scale of several that have the same, as the head of a table.
+//
+// Where not even a table fits, and on other pages, scales stand below their questions, and there are no rows.
+import QtQuick
+import ".."
+
+QtObject {
+    id: rows
+
+    required property PageShape page
+    required property WordWidths widths
+    // What may be said beside a question that is missed.
+    required property list<string> notes
+
+    readonly property bool possible: !page.upright && !page.alone && !page.largeText
+    // How flanked rows look, all measures of them; null if rows are not flanked.
+    readonly property var flank: !possible || page.dense || !page.rates ? null
+        : page.items.some(many) ? flanked(true) ?? flanked(false) : flanked(false)
+    // How large questions are; 0 if there are no rows.
+    readonly property real text: !possible ? 0 : flank?.text ?? tableText(2) ?? tableText(3) ?? 0
+    // Whether every row has the words for its own ends: the eye need not look for them.
+    readonly property bool own: flank !== null || text > 0 && page.rates && !page.dense && ownFit()
+    // How much of a row is its question's and its scale's.
+    readonly property real textWidth: flank?.textWidth ?? 0.42 * page.inner
+    readonly property real scaleWidth: flank?.scaleWidth ?? 0.54 * page.inner
+    // How high the content of a row is, and how much of the row is above and below that.
+    readonly property real height: flank?.height ?? 98 * Theme.unit + widths.leading * Theme.size(28)
+    readonly property real margin: flank !== null ? flank.margin - partings * parting / 2 / Math.max(1, page.seen().length) : 18 * Theme.unit
+    // How much further from the row before it a row is where only one of them has many points below its question: they
+    // are seen as two kinds. The margins of all rows give it, where they are large enough.
+    readonly property int partings: page.items.filter((_, at) => parts(at)).length
+    readonly property real parting: partings > 0 && (flank?.margin ?? 0) >= 22 * Theme.unit ? 18 * Theme.unit : 0
+
+    // The sizes of points, of the words for their ends and of questions that flanked rows are tried in, and in how many
+    // lines these may stand.
+    readonly property var trials: [
+        [100, 32, 36, 2], [100, 32, 34, 2], [100, 32, 32, 2], [100, 32, 32, 3],
+        [92, 30, 36, 2], [92, 30, 32, 2], [92, 30, 32, 3],
+        [84, 28, 36, 2], [84, 28, 32, 2], [84, 28, 29, 2], [84, 28, 29, 3]
+    ]
+
+    // Whether this scale stands beside its question.
+    function beside(item: var): bool {
+        return own || text > 0 && page.scales(item)
+    }
+    // Whether it stands below it, in its card's width, although the others are flanked.
+    function crowned(item: var): bool {
+        return flank !== null && flank.crowns && many(item)
+    }
+    // Whether the words for the ends of this item's scale are not those of the item before it.
+    function heads(at: int): bool {
+        const one = page.before(at), other = page.items[at] ?? null
+        return one === null || other === null || !page.scales(one)
+            || ["points", "left", "right"].some(key => one[key] !== other[key])
+    }
+    // How much further than usual this item is from the one before it.
+    function parted(at: int): real {
+        return parts(at) ? parting : 0
+    }
+
+    // Whether one of this item and that before it is crowned, and the other is not.
+    function parts(at: int): bool {
+        const one = page.before(at), other = page.items[at] ?? null
+        return one !== null && other !== null && !page.form.hidden.includes(other.id) && crowned(one) !== crowned(other)
+    }
+    function many(item: var): bool {
+        return page.scales(item) && item.points > 7
+    }
+    // The largest questions with which a table fits, none of them in more than so many lines.
+    function tableText(most: int): var {
+        return [36, 32, 29].map(Theme.size).find(size => tableFits(size, most))
+    }
+    // Whether the rows of a table fit with questions of this size, none in more than so many lines.
+    function tableFits(size: real, most: int): bool {
+        const lines = item => widths.lines(item.shown, size, textWidth)
+        const words = item => Math.max(page.dense ? 1 : 2, lines(item)) * widths.leading * size
+        const rowHeight = item => page.scales(item)
+            ? Math.max((page.dense ? 72 : 92) * Theme.unit, words(item)) + (page.dense ? 18 : 40) * Theme.unit + page.gap
+            : (page.dense || page.tight ? 170 : 210) * Theme.unit
+        return page.items.every(item => !page.scales(item) || lines(item) <= most)
+            && page.seen().reduce((sum, item) => sum + rowHeight(item), 60 * Theme.unit) <= page.room
+    }
+    // Whether rows fit with the words for their ends below each scale, in one line.
+    function ownFit(): bool {
+        const rowHeight = item => page.gap + 2 * margin + Math.max(height, widths.lines(item.shown, text, textWidth) * widths.leading * text)
+        const end = Theme.size(28), room = scaleWidth / 2 - Theme.gap
+        return page.items.every(item => widths.bold(item.left, end) <= room && widths.bold(item.right, end) <= room)
+            && page.seen().reduce((sum, item) => sum + rowHeight(item), 0) <= page.room
+    }
+    // How flanked rows look in the first sizes in which they fit; null if they fit in none. Many points are crowned by
+    // their question, or stand beside it with their words below them.
+    function flanked(crowns: bool): var {
+        for (const [point, end, text, most] of trials) {
+            const found = tried(crowns, point * Theme.unit, Theme.size(end), Theme.size(text), most)
+            if (found !== null)
+                return found
+        }
+        return null
+    }
+    // How they look in these sizes; null if they do not fit so. A question has the width that a scale leaves.
+    function tried(crowns: bool, point: real, end: real, text: real, most: int): var {
+        const longer = page.items.filter(many), beside = crowns ? page.items.filter(item => !many(item)) : page.items
+        const points = Math.max(1, ...page.items.map(item => page.scales(item) && !many(item) ? item.points : 5))
+        const longest = crowns ? 0 : Math.max(0, ...longer.map(item => item.points * 1.24 * 72 * Theme.unit))
+        const left = widths.column(beside.map(item => item.left), end)
+        const right = widths.column(beside.map(item => item.right), end)
+        const scaleWidth = Math.max(longest, left + right + 2 * Theme.gap + (points + 0.27 * (points - 1)) * point)
+        const textWidth = page.inner - scaleWidth - 2 * Theme.gap
+        const lines = Math.max(0, ...beside.map(item => widths.lines(item.shown, text, textWidth)))
+        const pointsAndEnds = longer.length > 0 && !crowns ? 76 * Theme.unit + widths.leading * end : point
+        const height = Math.max(point, pointsAndEnds, widths.leading * text * Math.max(2, lines))
+        const crownedHeight = crowns ? widths.leading * text + 18 * Theme.unit + point : height
+        const margin = spareMargin(height, crownedHeight)
+        const fits = textWidth > 0.3 * page.inner && lines <= most && margin >= 14 * Theme.unit
+            && longer.every(item => crowns ? crownFits(item, point, end, text) : reach(item, end) < scaleWidth / 2 - Theme.gap)
+        return fits ? {point, end, left, right, scaleWidth, textWidth, text, height, crowns, crownedHeight, margin} : null
+    }
+    // How wide the longer word for an end of a scale is.
+    function reach(item: var, size: real): real {
+        return 1.03 * Math.max(widths.plain(item.left, size), widths.plain(item.right, size))
+    }
+    // Whether a question and the note that it is missed fit one line, and its points and the words for their ends another.
+    function crownFits(item: var, point: real, end: real, text: real): bool {
+        const note = Math.max(...notes.map(note => widths.bold(note, Theme.small)))
+        const ends = widths.plain(item.left, end) + widths.plain(item.right, end)
+        return 1.03 * (widths.bold(item.shown, text) + note) + 1.25 * Theme.gap <= page.inner
+            && 1.03 * ends + 2 * Theme.gap + (item.points + 0.24 * (item.points - 1)) * point <= page.inner
+    }
+    // What the page's height leaves above and below each row, up to a limit. Rows of many points may be higher than others.
+    function spareMargin(height: real, crownedHeight: real): real {
+        const all = page.seen().reduce((sum, item) => sum + (many(item) ? crownedHeight : height), 0)
+        return Math.min(44 * Theme.unit, ((page.room - all) / Math.max(1, page.seen().length) - page.gap) / 2)
+    }
+}
