@@ -170,11 +170,7 @@ def allocation_check(
         try:
             lists.check(quotas, declared.block_size, declared.seed)
         except UserInputError as refusal:
-            yield CheckResult.error(
-                LIST,
-                str(refusal),
-                "put quotas, block and seed back as they are fixed; another study needs a data folder of its own",
-            )
+            yield CheckResult.error(LIST, str(refusal), _AS_FIXED)
             return
         yield _left(lists.latest(), lists.consumed(), quotas)
 

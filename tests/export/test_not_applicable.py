@@ -26,7 +26,6 @@ ASKED = questionnaire(
 )
 GIVEN: dict[str, Response] = {"calm": 4, "clear": NOT_APPLICABLE}
 """What the visitor says; the other two items are left out."""
-_GIVEN = ResponseGiven.__name__
 
 
 @pytest.fixture(scope="module")

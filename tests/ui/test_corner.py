@@ -7,21 +7,15 @@ from PySide6.QtCore import Qt
 
 from kiosk.config import Settings
 from kiosk.experiment.events import SoundSelected, TextSize, TextSizeSelected
-from kiosk.experiment.outcomes import Stage, Status
+from kiosk.experiment.outcomes import Status
 from kiosk.experiment.replay import replay_events
 from kiosk.store.queries import open_repository
 from kiosk.ui.input import CHOICES_KEPT_MS
-from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import SMALL
 from tests.ui.reaching import Finger, Keyboard
 
 CONTROLS = ("control-stop", "control-language", "control-text-size", "control-sound")
-
-
-def leave_in(booth: Booth, stage: Stage) -> None:
-    """Go on by a simulated visitor who does nothing more in a stage."""
-    booth.rehearse(3, BehaviourProfile(BehaviourKind.LEAVES, stage))
 
 
 @pytest.fixture

@@ -40,7 +40,6 @@ EXACTLY = (
     "zu\N{SOFT HYPHEN}sammen",
     "  e\N{COMBINING ACUTE ACCENT} ",
 )
-BACKSPACE = Qt.Key.Key_Backspace
 
 Given = list[tuple[str, Answer | None]]
 

@@ -28,7 +28,6 @@ LONG_S = 1.2
 
 REMOVE, ADD = 0, 1
 ICONIC = 3
-ALL_DESKTOPS = 0xFFFFFFFF
 
 SHORTCUTS = (
     *("alt+F4", "Escape", "ctrl+w", "ctrl+q", "ctrl+c", "ctrl+z", "alt+Tab", "alt+shift+Tab", "ctrl+alt+Tab"),
