@@ -385,11 +385,8 @@ class SessionRunner:
         try:
             provenance = self._with_body(self._assigner.next_session(language, returning))
             setup = self._setup()
-        except StoreBusy as busy:
-            self._try_again(partial(self._start, language, tapped_at, returning), busy)
-            return
         except StorageError as failure:
-            self._give_way(failure)
+            self._put_off(partial(self._start, language, tapped_at, returning), failure)
             return
         self._busy.end()
         record = SessionRecording(self._recorder, provenance, partial(self._assigner.confirm_recorded, provenance))
@@ -578,16 +575,16 @@ class SessionRunner:
         self._renderer.reset("pause" if self._shut or self._on_break else screen)
         self.on_idle()
 
-    def _work(self) -> None:  # noqa: C901, PLR0912 - one branch for each way in which it goes on later
+    def _work(self) -> None:  # noqa: C901 - one branch for each way in which it goes on later
         """Handle, write and show what happened, in turn, until nothing is left or it is to wait."""
         self._working = True
         try:
-            while self._session is not None and self._record is not None:
+            while self._session is not None and self._record is not None and self._has_more:
                 session, record = self._session, self._record
-                if self._showing is None:
+                # Taken out: where an effect fails, the session goes on without those after it.
+                showing, self._showing = self._showing, None
+                if showing is None:
                     if self._unwritten is None:
-                        if not self._queue:
-                            return
                         event = self._queue.popleft()
                         try:
                             self._unwritten = _Handled(event, session.handle(event))
@@ -598,21 +595,14 @@ class SessionRunner:
                     try:
                         if self.writer is not None and self.writer.is_under_way:
                             self.writer.end()
-                        elif self.writer is not None and not self._closes and record.reaches_disk(handled.outcome):
-                            self.writer.begin(partial(record.write, handled.event, handled.outcome), self._work)
+                        elif self._is_written_beside(handled, record):
                             return
                         else:
                             record.write(handled.event, handled.outcome)
-                    except StoreBusy as busy:
-                        self._try_again(self._work, busy)
-                        return
                     except StorageError as failure:
-                        self._give_way(failure)
+                        self._put_off(self._work, failure)
                         return
                     showing = self._begin_to_show(handled, session, record)
-                else:
-                    # Taken out: where an effect fails, the session goes on without those after it.
-                    showing, self._showing = self._showing, None
                 for _ in showing.steps:
                     if not self._closes:
                         self._showing = showing
@@ -621,6 +611,18 @@ class SessionRunner:
                 self._after_effects(showing.handled, session.stage)
         finally:
             self._working = False
+
+    @property
+    def _has_more(self) -> bool:
+        """Whether something is to be shown, written or handled."""
+        return self._showing is not None or self._unwritten is not None or bool(self._queue)
+
+    def _is_written_beside(self, handled: _Handled, record: SessionRecording) -> bool:
+        """Begin to write an event beside the interface, if that is possible; returns whether it is."""
+        if self.writer is None or self._closes or not record.reaches_disk(handled.outcome):
+            return False
+        self.writer.begin(partial(record.write, handled.event, handled.outcome), self._work)
+        return True
 
     def _begin_to_show(self, handled: _Handled, session: Session, record: SessionRecording) -> _Showing:
         """Tell everything around the session that its event was taken; its effects come next."""
@@ -678,11 +680,15 @@ class SessionRunner:
     def _note_change(self) -> None:
         self._screen_changed = True
 
-    def _try_again(self, call: Callable[[], None], busy: StoreBusy) -> None:
-        try:
-            self._busy.try_again(call, busy)
-        except StorageError as failure:
+    def _put_off(self, call: Callable[[], None], failure: StorageError) -> None:
+        """Call again soon where the database is only busy; give way to any other failure, and after a long wait."""
+        if not isinstance(failure, StoreBusy):
             self._give_way(failure)
+            return
+        try:
+            self._busy.try_again(call, failure)
+        except StorageError as lasting:
+            self._give_way(lasting)
 
     def _give_way(self, failure: StorageError) -> None:
         _log.error("%s", failure)
