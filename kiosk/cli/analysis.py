@@ -49,7 +49,7 @@ def calibrate_command(
 ) -> None:
     """Estimate how the people in a DATASET forget and follow.
 
-    It gives forgetting, following and lapses; of forgetting the mean and the spread, with intervals.
+    It estimates forgetting (mean and spread), following and lapses, with intervals.
     """
     calibrate, checks = analysis("calibrate"), analysis("calibration_checks")
     for file in (out, page):
@@ -117,7 +117,7 @@ def plan_group() -> None:
 @click.argument("file", type=click.Path(path_type=Path, dir_okay=False))
 @json_option
 def plan_new(file: Path, *, as_json: bool) -> None:
-    """Write a plan to begin with: the paper's study.
+    """Write a plan of the paper's study, for you to change.
 
     Its defaults are modern ones.
     """

@@ -103,7 +103,7 @@ def backup_command(data: Path, to: str | None, keep: int, keys: tuple[str, ...],
 @click.option("--port", type=click.IntRange(1, 65535), default=8001, show_default=True, help="On this machine only.")
 @click.option("--open", "opens", is_flag=True, help="Open the page in the browser.")
 def browse_command(data: Path, port: int, *, opens: bool) -> None:
-    """Look into a copy of the database with Datasette.
+    """Show a copy of the database with Datasette.
 
     It is verified and read only, and served until Ctrl+C. The page is served to this machine alone; the copy is
     removed at the end. It needs the extra 'browse'.
@@ -256,9 +256,9 @@ def _sessions(going: withdrawing.Withdrawal) -> str:
 )
 @json_option
 def merge_command(folders: tuple[Path, ...], out: Path, sites: tuple[tuple[Path, str], ...], *, as_json: bool) -> None:
-    """Bring the data folders A, B and so on together.
+    """Merge the data folders A, B and so on.
 
-    They are written to a new folder and stay as they are.
+    The result is a new folder; A, B and so on are not changed.
     """
     with _disk_in_words(), progress_bar("merging", hidden=as_json) as tell:
         sessions = merging.merge(folders, out, tell, sites)
@@ -292,7 +292,7 @@ def merge_command(folders: tuple[Path, ...], out: Path, sites: tuple[tuple[Path,
 def export_command(data: Path, out: Path, *, bids: bool, shuffled_ids: bool, as_json: bool, **also: bool) -> None:
     """Write a data set for publishing, with a codebook.
 
-    It has every table, as Psych-DS asks for.
+    The data set follows Psych-DS.
     """
     check_readable(data)
     withdrawing.check_none_is_back(data)

@@ -60,7 +60,7 @@ _P95 = 0.95
 def day_command(data: Path, day: datetime | None, out: Path | None, *, with_rehearsals: bool, as_json: bool) -> None:
     """Write one page about a day at the booth.
 
-    It has time lines, dropouts, faults, and what to look at tomorrow. It tells no condition, no code and no answer.
+    It has time lines, dropouts, faults, and what needs attention tomorrow. It has no condition, code or answer.
     """
     chosen = day.date() if day else datetime.now().astimezone().date()
     kinds = {SessionKind.STUDY, SessionKind.TRIAL} | ({SessionKind.SIMULATED} if with_rehearsals else set())

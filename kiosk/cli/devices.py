@@ -69,7 +69,7 @@ def robot_command(
     pretend: bool,
     as_json: bool,
 ) -> None:
-    """Try a robot step by step and say what it has and does."""
+    """Try a robot step by step and show what it can do."""
     if pretend:
         others = (host, kind, language, sentence, study)
         if as_json or any(each is not None for each in others):
@@ -299,7 +299,7 @@ def render_command(
 ) -> None:
     """Render every sentence of a study once.
 
-    The kiosk then only plays them. Texts that are there are kept.
+    The kiosk then only plays them. Clips that exist are kept.
     """
     plans = _plans(study, language)
     if out is not None and len(plans) > 1:
@@ -327,9 +327,9 @@ def render_command(
 @one_language_option
 @json_option
 def script_command(study: Path | None, language: str, *, as_json: bool) -> None:
-    """Print what a person is to read aloud for a pack.
+    """Print the texts that a person reads aloud for a pack.
 
-    The lines are numbered as the recordings are to be named.
+    Name each recording by the number of its line.
     """
     plan = _plan(study, language)
     lines = {recording_name(number): text for number, text in enumerate(spoken_texts(plan), 1)}
@@ -352,7 +352,7 @@ def script_command(study: Path | None, language: str, *, as_json: bool) -> None:
 def import_command(
     recordings: Path, out: Path, speaker: str, licence: str, study: Path | None, language: str, *, as_json: bool
 ) -> None:
-    """Make a pack of a person's RECORDINGS.
+    """Make a pack from a person's RECORDINGS.
 
     'voice script' numbers their names. They are trimmed and levelled.
     """
@@ -372,7 +372,7 @@ def import_command(
 @json_option
 @click.pass_context
 def missing_command(context: click.Context, folder: Path, study: Path | None, *, as_json: bool) -> None:
-    """Print every text that the pack in FOLDER cannot say.
+    """Print every text that the pack in FOLDER lacks.
 
     The exit code is 1 if there is any.
     """
@@ -391,7 +391,7 @@ def missing_command(context: click.Context, folder: Path, study: Path | None, *,
 @json_option
 @click.pass_context
 def check_pack_command(context: click.Context, folder: Path, *, as_json: bool) -> None:
-    """Look at every clip of the pack in FOLDER.
+    """Check every clip of the pack in FOLDER.
 
     Each must be there, unchanged, neither silent nor clipped, and as loud as the others. The exit code is 1 if one
     is not.

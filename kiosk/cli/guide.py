@@ -172,7 +172,7 @@ _HEAD = """# Every command
 This page is written by `python packaging/reference.py`; change the commands in `kiosk/cli`, not the page.
 
 `recollect --help` lists the commands in groups, and `recollect COMMAND --help` shows one of them. Options without a
-command are those of `run`: `recollect --study study.toml` opens the kiosk. What stands in capitals is yours to fill in.
+command are those of `run`: `recollect --study study.toml` opens the kiosk. Replace words in capitals with your own.
 
 | exit code | what it means |
 |---|---|

@@ -182,9 +182,9 @@ def say_if_slow(*, hidden: bool) -> None:
 @click.option("--spread", type=float, help="With --timing model: the most SD of the flips a game (none).")
 @as_json
 def train_command(out: Path, name: str | None, reward: str, json_: bool, **options: Any) -> None:  # noqa: FBT001 - click's flag
-    """Learn a table and freeze it.
+    """Train a table and freeze it.
 
-    What no option gives follows from the reward.
+    The defaults of the other options depend on the reward.
     """
     timing, games, assistance, spread = (options.pop(name) for name in ("timing", "games", "assistance", "spread"))
     if timing == "model":
@@ -351,7 +351,7 @@ def simulate_command(
 ) -> None:
     """Play games with a simulated player under a frozen table.
 
-    They are measured as the study measures them.
+    It prints the measures of the study.
     """
     where = target_rule(Condition(condition).known, TargetRule.MOST_FLIPPED)
     table = QTable.named(name) if where else QTable.blank()

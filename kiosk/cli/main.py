@@ -33,9 +33,9 @@ _GROUPS = {
         "open-day": ("kiosk.cli.open_day:open_day_command", "Go through the morning checklist, then open the kiosk."),
         "check": ("kiosk.cli.check_command:check_command", "Try everything that a booth needs, and say what to do."),
         "rehearse": ("kiosk.cli.rehearse:rehearse", "Let simulated visitors go through sessions or a whole day."),
-        "robot": ("kiosk.cli.devices:robot_command", "Try a robot step by step and say what it has and does."),
+        "robot": ("kiosk.cli.devices:robot_command", "Try a robot step by step and show what it can do."),
         "watch": ("kiosk.cli.watch:watch_command", "Watch all booths that publish to an MQTT broker."),
-        "status": ("kiosk.cli.status:status_command", "Show how the booth is now, while the kiosk runs."),
+        "status": ("kiosk.cli.status:status_command", "Show the state of the booth while the kiosk runs."),
     },
     "Look at sessions": {
         "sessions": ("kiosk.cli.sessions:sessions_command", "List the stored sessions and how they ended."),
@@ -47,9 +47,9 @@ _GROUPS = {
     "Keep the data": {
         "backup": ("kiosk.cli.data:backup_command", "Copy the database, also while a kiosk is writing."),
         "verify": ("kiosk.cli.data:verify_command", "Check the database row by row."),
-        "browse": ("kiosk.cli.data:browse_command", "Look into a copy of the database with Datasette."),
+        "browse": ("kiosk.cli.data:browse_command", "Show a copy of the database with Datasette."),
         "withdraw": ("kiosk.cli.data:withdraw_command", "Delete all that is stored of the participant with this CODE."),
-        "merge": ("kiosk.cli.data:merge_command", "Bring the data folders A, B and so on together."),
+        "merge": ("kiosk.cli.data:merge_command", "Merge the data folders A, B and so on."),
     },
     "Publish the results": {
         "export": ("kiosk.cli.data:export_command", "Write a data set for publishing, with a codebook."),
@@ -60,7 +60,7 @@ _GROUPS = {
         ),
     },
     "The learning layer": {
-        "train": ("kiosk.cli.learning:train_command", "Learn a table and freeze it."),
+        "train": ("kiosk.cli.learning:train_command", "Train a table and freeze it."),
         "simulate": ("kiosk.cli.learning:simulate_command", "Play games with a simulated player under a frozen table."),
         "policy": ("kiosk.cli.policy:policy_group", "Look at policy files and their evidence."),
     },

@@ -112,7 +112,7 @@ def progress_bar(what: str, total: int | None = None, *, hidden: bool) -> Iterat
 @click.command()
 @json_option
 def set_pin_command(*, as_json: bool) -> None:
-    """Choose the experimenter's PIN and print the lines that set it.
+    """Choose the experimenter's PIN and print its two lines.
 
     They belong in the study file.
     """

@@ -76,7 +76,7 @@ def _drawn() -> Any:
 @click.argument("other")
 @as_json
 def policy_compare(one: str, other: str, json_: bool) -> None:  # noqa: FBT001 - click's flag
-    """Say in which states two tables act differently.
+    """Show the states in which two tables act differently.
 
     It compares the states that both have met in training.
     """
@@ -121,7 +121,7 @@ def policy_card(file: str, games: int, seed: int, json_: bool) -> None:  # noqa:
 )
 @as_json
 def show_evidence(games: int, seeds: int, seed: int, figures: Path | None, json_: bool) -> None:  # noqa: FBT001
-    """Make every number of the page on learning again.
+    """Compute every number of the page on learning again.
 
     It says of each claim whether it holds.
     """

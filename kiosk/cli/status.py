@@ -24,7 +24,7 @@ NOT_ALIVE, TROUBLE = 3, 1
 @json_option
 @click.pass_context
 def status_command(context: click.Context, data: Path, *, as_json: bool) -> None:
-    """Show how the booth is now, while the kiosk runs.
+    """Show the state of the booth while the kiosk runs.
 
     It shows stage, today's sessions, robot, voice, disk and backup. Exit code 0 if the kiosk runs and all is well,
     1 if something is not, 3 if no kiosk runs or it hangs.

@@ -95,9 +95,9 @@ study.add_command(set_pin_command)
 def study_check(
     context: click.Context, file: Path, allowed_signers: Path | None, *, pages: bool, as_json: bool
 ) -> None:
-    """Read a study FILE and say what it is, or all that is wrong.
+    """Check a study FILE and print a summary, or its faults.
 
-    Everything that the file names is read, too.
+    Every file that it names is checked too.
     """
     try:
         read = read_study(open_study(file))
@@ -316,7 +316,7 @@ def study_new(
 ) -> None:
     """Make the folder DIR with a whole study in it.
 
-    At a terminal it asks for what no option gives.
+    In a terminal it asks for everything that no option gives.
     """
     check_free(folder)
     asks = sys.stdin.isatty() and not as_json
@@ -406,11 +406,11 @@ def study_import(
     shuffled: bool,
     as_json: bool,
 ) -> None:
-    """Make a questionnaire of a CSV table or a survey FILE.
+    """Make a questionnaire from a CSV table or a survey FILE.
 
     A table has one row per item. XLSForm (.xlsx), REDCap data
-    dictionaries (.csv), LimeSurvey (.txt) and Qualtrics (.qsf) are known. What cannot be asked here is named line
-    by line.
+    dictionaries (.csv), LimeSurvey (.txt) and Qualtrics (.qsf) are known. Each item that cannot be imported is named
+    on a line.
     """
     from kiosk.study.survey_import.reading import is_survey, read_survey
 

@@ -38,10 +38,10 @@ DIFFERENT = 1
 @click.option("--sign", "key", type=click.Path(path_type=Path), help="Sign it with this SSH key.")
 @json_option
 def pack_command(file: Path, out: Path | None, key: Path | None, *, as_json: bool) -> None:
-    """Make one file of a study FILE and of all that it names.
+    """Pack a study FILE and all files that it names into one.
 
     It prints the file's SHA-256. The same study gives the same bytes. The kiosk runs the packed file as it is. The
-    PIN, the robot's address and what else belongs to one kiosk are not packed; write them into a file of the same
+    PIN, the robot's address and other settings of one kiosk are not packed; write them into a file of the same
     name that ends in .local.toml.
     """
     out = out or file.with_suffix(ENDING)
@@ -69,7 +69,7 @@ def pack_command(file: Path, out: Path | None, key: Path | None, *, as_json: boo
 @json_option
 @click.pass_context
 def diff_command(context: click.Context, one: Path, other: Path, *, as_json: bool) -> None:
-    """Say in what the studies ONE and OTHER differ.
+    """Show how the studies ONE and OTHER differ.
 
     It also says whether the difference can change the data. The exit code is 1 if they differ.
     """

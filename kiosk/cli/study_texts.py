@@ -97,7 +97,7 @@ def _show(found: dict[str, Sequence[Unit]], *, list_them: bool, as_json: bool) -
 def dossier_command(file: Path, out: Path, *, as_json: bool) -> None:
     """Write a study FILE as one PDF for an ethics board.
 
-    It has the flow, every screen and text, what is stored and hashes.
+    It has the stages, every screen and text, what is stored, and hashes.
     """
     from kiosk.ui.dossier import write_dossier  # noqa: PLC0415 - the other commands do without a window
 

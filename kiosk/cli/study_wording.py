@@ -58,9 +58,9 @@ def draft_command(
     seed: int,
     as_json: bool,
 ) -> None:
-    """Ask a language model for other words.
+    """Ask a language model for other wordings of hints.
 
-    It asks about each hint of a study FILE, and checks what a program can.
+    It asks for each hint of a study FILE, and checks the drafts.
     A run that was interrupted goes on with the messages that are missing; remove the draft file to begin anew.
     """
     # Only this command asks over HTTP, and its libraries take long to load.
@@ -116,10 +116,10 @@ def review_command(
     only_list: bool,
     as_json: bool,
 ) -> None:
-    """Show the drafts, and take or leave each.
+    """Show the drafts, and accept or reject each.
 
-    They stand beside the shipped sentences of a study FILE.
-    Wordings that failed a check cannot be taken. A message of which none is taken keeps its shipped wordings.
+    They are shown beside the shipped sentences of a study FILE.
+    Wordings that failed a check cannot be accepted. A message without an accepted wording keeps its shipped ones.
     """
     settings, plan = _read(file, language)
     place = settings.beside(folder)
@@ -151,9 +151,9 @@ def review_command(
 @click.option("--name", required=True, help="Who has read the sentences and answers for them.")
 @json_option
 def sign_command(file: Path, folder: str, name: str, *, as_json: bool) -> None:
-    """Freeze what was taken for a study FILE.
+    """Freeze the accepted wordings of a study FILE.
 
-    It is kept with your name, the date and hashes.
+    They are stored with your name, the date and hashes.
     """
     settings = read_settings(file)
     place = settings.beside(folder)
