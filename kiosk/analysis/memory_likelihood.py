@@ -27,7 +27,6 @@ from kiosk.assistance.policy import ACTIONS, ActionSpec
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-Places = NDArray[np.int64]
 
 LAPSE, FREE, FOLLOW = range(3)
 """How a card came to be chosen: by a lapse, from memory, or along the hint."""

@@ -10,6 +10,7 @@ from typing import Any, Protocol
 from kiosk import UserInputError
 from kiosk.assistance.comments import Comment
 from kiosk.assistance.hesitation import Wait
+from kiosk.assistance.hint_sentences import Sentences
 from kiosk.assistance.memory_model import MemoryEstimate, MemoryModel, MemoryTiming
 from kiosk.assistance.mentaliser import Hint, Mentaliser, Target
 from kiosk.assistance.policy import ACTIONS, ActionSpec, Gate, GateDecision, State
@@ -205,18 +206,6 @@ class Assistant:
         return None
 
 
-class HintWording(Protocol):
-    """Knows all that can be said with a hint or a remark."""
-
-    def all_wordings(self, hint: Hint) -> tuple[str, ...]:
-        """All the sentences that there are for one hint."""
-        ...
-
-    def all_remarks(self, action: ActionSpec) -> tuple[str, ...]:
-        """All the sentences that there are for an action without a place."""
-        ...
-
-
 @dataclass(frozen=True)
 class Explanation:
     """One decision with everything around it.
@@ -306,7 +295,7 @@ def explain_decision(
     game: Concentration,
     decision: Decision,
     mentaliser: Mentaliser | None,
-    speaker: HintWording | None,
+    speaker: Sentences | None,
     *,
     overridden: bool = False,
 ) -> Explanation:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from itertools import product
 from random import Random
+from typing import Protocol
 
 from kiosk.assistance.mentaliser import Hint
 from kiosk.assistance.policy import ENCOURAGEMENT, PRAISE, ActionSpec
@@ -31,6 +32,35 @@ class Wording:
         chance = self._chance.setdefault(message, Random(f"{self._seed}/{message}"))
         self._last[message] = chance.choice(fresh)
         return wordings[self._last[message]]
+
+
+class Sentences(Protocol):
+    """What is said with hints and remarks."""
+
+    @property
+    def speaks(self) -> bool:
+        """Whether hints are said; without words, the helper looks toward the place."""
+        ...
+
+    def sentence(self, hint: Hint) -> str:
+        """Return the sentence for one hint."""
+        ...
+
+    def all_wordings(self, hint: Hint) -> tuple[str, ...]:
+        """All the sentences that there are for one hint."""
+        ...
+
+    def advice(self, hint: Hint, sentence: str) -> str:
+        """Return the part of a hint's sentence that says where."""
+        ...
+
+    def remark(self, action: ActionSpec) -> str:
+        """Return the sentence for an action without a place."""
+        ...
+
+    def all_remarks(self, action: ActionSpec) -> tuple[str, ...]:
+        """All the sentences that there are for an action without a place."""
+        ...
 
 
 class PlainSentences:

@@ -6,43 +6,20 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from math import gcd
 from random import Random
-from typing import ClassVar, Literal, Protocol
+from typing import ClassVar, Literal
 
 from kiosk import UserInputError
-from kiosk.assistance.hint_sentences import NoSentences, PlainSentences, ReasonedSentences, ReminderSentences, Wording
-from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
-from kiosk.assistance.policy import ActionSpec
+from kiosk.assistance.hint_sentences import (
+    NoSentences,
+    PlainSentences,
+    ReasonedSentences,
+    ReminderSentences,
+    Sentences,
+    Wording,
+)
+from kiosk.assistance.mentaliser import Mentaliser, TargetRule
 from kiosk.config import KNOWN_CONDITIONS, ConditionConfig
 from kiosk.lazy_dataclass import dataclass
-
-
-class Sentences(Protocol):
-    """What is said with a hint."""
-
-    @property
-    def speaks(self) -> bool:
-        """Whether hints are said; without words, the helper looks toward the place."""
-        ...
-
-    def sentence(self, hint: Hint) -> str:
-        """Return the sentence for one hint."""
-        ...
-
-    def all_wordings(self, hint: Hint) -> tuple[str, ...]:
-        """All the sentences that there are for one hint."""
-        ...
-
-    def advice(self, hint: Hint, sentence: str) -> str:
-        """Return the part of a hint's sentence that says where."""
-        ...
-
-    def remark(self, action: ActionSpec) -> str:
-        """Return the sentence for an action without a place."""
-        ...
-
-    def all_remarks(self, action: ActionSpec) -> tuple[str, ...]:
-        """All the sentences that there are for an action without a place."""
-        ...
 
 
 @dataclass(frozen=True)

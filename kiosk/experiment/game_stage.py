@@ -12,12 +12,12 @@ from collections.abc import Iterator
 from kiosk.assistance.assistant import Assistant, Decision
 from kiosk.assistance.comments import Comment, Commentator
 from kiosk.assistance.hesitation import HesitationRule, PlayerTimes
+from kiosk.assistance.hint_sentences import Sentences
 from kiosk.assistance.mentaliser import Hint
 from kiosk.assistance.policy import ActionSpec, FlipInMove
 from kiosk.config import Timing
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.condition import Sentences
 from kiosk.experiment.effects import BoardWait, Mood, OutcomeBuilder
 from kiosk.experiment.events import HintCue, RemarkTrigger, Timer, WorldEvent
 from kiosk.experiment.page_stages import StageHandler

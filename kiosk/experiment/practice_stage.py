@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from kiosk.assistance.hint_sentences import Sentences
 from kiosk.assistance.mentaliser import Hint, Mentaliser
 from kiosk.assistance.policy import ActionSpec
 from kiosk.config import Timing
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.condition import Help, Sentences
+from kiosk.experiment.condition import Help
 from kiosk.experiment.effects import OutcomeBuilder
 from kiosk.experiment.events import PracticeEnd, Timer, WorldEvent
 from kiosk.experiment.game_stage import DealtTable, GameStage
