@@ -14,14 +14,7 @@ from kiosk.config import ASSETS, STAGES, Settings
 from kiosk.experiment.booth_status import BoothStatus, DayCounts, PartStatus, utc
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.information import ConsentPage, Information, Page, Purpose
-from kiosk.experiment.items import (
-    Integer,
-    Likert,
-    Multiple,
-    Option,
-    ShortText,
-    Single,
-)
+from kiosk.experiment.items import Integer, Likert, Multiple, Option, ShortText, Single
 from kiosk.experiment.questionnaire import Questionnaire
 from kiosk.experiment.session_config import SessionConfig, Translation
 from kiosk.game import Board

@@ -19,18 +19,8 @@ from kiosk.experiment.events import (
     SpeechStarted,
 )
 from kiosk.experiment.information import Purpose
-from kiosk.experiment.items import (
-    Answer,
-    Choice,
-    Rating,
-    ShortText,
-)
-from kiosk.experiment.questionnaire import (
-    Item,
-    Questionnaire,
-    differences,
-    summed,
-)
+from kiosk.experiment.items import Answer, Choice, Rating, ShortText
+from kiosk.experiment.questionnaire import Item, Questionnaire, differences, summed
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.store.session_records import EventRecord, SessionRecord
 

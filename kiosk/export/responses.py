@@ -6,16 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from kiosk.experiment.item_responses import ItemResponse
-from kiosk.experiment.items import (
-    Rating,
-    ShortText,
-)
+from kiosk.experiment.items import Rating, ShortText
 from kiosk.experiment.projections import ScaleScore, item_responses, scale_scores
-from kiosk.experiment.questionnaire import (
-    KINDS,
-    Item,
-    Questionnaire,
-)
+from kiosk.experiment.questionnaire import KINDS, Item, Questionnaire
 from kiosk.export.columns import (
     PARTICIPANT,
     Cell,

@@ -12,7 +12,7 @@ from typing import ClassVar
 from kiosk.config import ConfigModel
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
-from kiosk.experiment.items import can_be_kept
+from kiosk.experiment.typed_input import can_be_kept
 from kiosk.language_codes import distance
 from kiosk.lazy_dataclass import dataclass
 from kiosk.robots.embodiment import BoardPoint

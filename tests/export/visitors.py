@@ -10,15 +10,7 @@ from types import MappingProxyType
 
 from kiosk.config import ASSETS
 from kiosk.experiment.condition import CONDITIONS, Condition
-from kiosk.experiment.items import (
-    Answer,
-    Integer,
-    Multiple,
-    Rating,
-    Response,
-    Single,
-    TextPage,
-)
+from kiosk.experiment.items import Answer, Integer, Multiple, Rating, Response, Single, TextPage
 from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.experiment.session_config import SessionConfig

@@ -11,14 +11,7 @@ from pydantic import ValidationError
 
 from kiosk import UserInputError
 from kiosk.config import ASSETS
-from kiosk.experiment.items import (
-    Answer,
-    Likert,
-    Rating,
-    Slider,
-    TextPage,
-    in_language,
-)
+from kiosk.experiment.items import Answer, Likert, Rating, Slider, TextPage, in_language
 from kiosk.experiment.questionnaire import KINDS, TITLE, Questionnaire, differences
 from tests.samples import without_line
 

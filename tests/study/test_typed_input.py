@@ -9,7 +9,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from kiosk.experiment.items import NumberInput, ShortText, can_be_kept
+from kiosk.experiment.items import ShortText
+from kiosk.experiment.typed_input import NumberInput, can_be_kept
 
 REMARK = ShortText(id="remark", kind="text", text={"en": "remark?"}, longest=500)
 

@@ -12,7 +12,7 @@ from PySide6.QtGui import QKeyEvent, QWindow
 
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment.experimenter import MOST, AuditEvent, Authorisation, DeviationReason, WrongPins, pin_matches
-from kiosk.experiment.items import can_be_kept
+from kiosk.experiment.typed_input import can_be_kept
 from kiosk.ui.event_loop import Clock, Executor, TimerWait
 from kiosk.ui.experimenter.view_model import AuthorisationStep, CardScreen
 from kiosk.ui.input import without_last

@@ -26,10 +26,10 @@ from kiosk.experiment.items import (
     Single,
     Slider,
     TextPage,
-    can_be_kept,
     in_language,
 )
 from kiosk.experiment.questionnaire import Item
+from kiosk.experiment.typed_input import can_be_kept
 from kiosk.ui.input import before, fitting
 
 _log = logging.getLogger(__name__)

@@ -13,18 +13,10 @@ from hypothesis import strategies as st
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import EmbodimentName, Event
 from kiosk.experiment.item_responses import ItemResponse, effective_answer
-from kiosk.experiment.items import (
-    Answer,
-    Multiple,
-    ShortText,
-    TextPage,
-)
+from kiosk.experiment.items import Answer, Multiple, ShortText, TextPage
 from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.projections import item_responses
-from kiosk.experiment.questionnaire import (
-    ItemOrder,
-    Questionnaire,
-)
+from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
 from kiosk.experiment.session_state import SessionState
 from tests.experiment.driver import driven_to
 from tests.samples import ABOUT_YOU, CLOSING, likert, options, questionnaire, whole

@@ -12,13 +12,7 @@ from hypothesis import strategies as st
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import Event
 from kiosk.experiment.item_responses import ItemResponse
-from kiosk.experiment.items import (
-    NOT_APPLICABLE,
-    Integer,
-    Response,
-    Slider,
-    TextPage,
-)
+from kiosk.experiment.items import NOT_APPLICABLE, Integer, Response, Slider, TextPage
 from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.projections import ScaleScore, item_responses, scale_scores
 from kiosk.experiment.session_state import SessionState
