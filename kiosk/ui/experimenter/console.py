@@ -28,8 +28,9 @@ from kiosk.store.snapshot import (
     wrong_pins,
 )
 from kiosk.ui.event_loop import Executor
-from kiosk.ui.experimenter.actions import ActionController, AuditLog, Services
+from kiosk.ui.experimenter.actions import ActionController, Services
 from kiosk.ui.experimenter.alarms import AlarmBell, alarm_status
+from kiosk.ui.experimenter.audit_log import AuditLog
 from kiosk.ui.experimenter.authorisation import AuthorisationFlow, InputCapture, PinVerifier
 from kiosk.ui.experimenter.health import Clocks, HealthInputs, health_parts
 from kiosk.ui.experimenter.maintenance import MaintenanceScheduler, MaintenanceTasks

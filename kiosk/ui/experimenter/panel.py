@@ -13,8 +13,9 @@ from kiosk.experiment.experimenter import Action, ActionEffect, AuditEvent, perm
 from kiosk.experiment.outcomes import Stage
 from kiosk.store.snapshot import DashboardSnapshot
 from kiosk.ui.event_loop import TimerWait
-from kiosk.ui.experimenter.actions import AUTOMATIC, LOUDNESS, ActionController, AuditLog, Services
+from kiosk.ui.experimenter.actions import AUTOMATIC, LOUDNESS, ActionController, Services
 from kiosk.ui.experimenter.alarms import alarm_rows
+from kiosk.ui.experimenter.audit_log import AuditLog
 from kiosk.ui.experimenter.authorisation import AuthorisationFlow
 from kiosk.ui.experimenter.health import HealthInputs, HealthLine, booth_lines, health_lines, is_pack_changed
 from kiosk.ui.experimenter.maintenance import MaintenanceScheduler
