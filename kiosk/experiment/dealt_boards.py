@@ -138,7 +138,7 @@ class DealtBoard:
 
 
 class BoardsReader:
-    """The boards, and since when the last one can be tapped."""
+    """Reads events into boards; it knows since when the last one can be tapped."""
 
     def __init__(self) -> None:
         self.dealt: list[DealtBoard] = []

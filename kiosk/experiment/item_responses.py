@@ -66,7 +66,7 @@ def effective_answer(value: Response | None) -> Response | None:
 
 
 class ResponsesReader:
-    """What was answered in each stage since it was entered last, and what was shown."""
+    """Reads events into the answers of each stage since it was entered last, and into what was shown."""
 
     def __init__(self) -> None:
         self.shown: dict[str, list[str]] = {}

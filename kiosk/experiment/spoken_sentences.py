@@ -81,7 +81,7 @@ class SpokenSentence:
 
 
 class SpeechReader:
-    """The sentences, and which of them is being said by which body."""
+    """Reads events into sentences; it knows which of them is being said by which body."""
 
     def __init__(self, embodiment: EmbodimentName | None) -> None:
         self.sentences: dict[int, SpokenSentence] = {}
