@@ -23,7 +23,6 @@ from kiosk.export.columns import (
     SENTENCE,
     STAGE,
     UTTERANCE,
-    Cell,
     Column,
     ColumnKind,
     ExportOption,
@@ -326,82 +325,81 @@ class _Deviated:
 _DETAILS = ("condition", "embodiment", "language", "volume", "muted", "level", "is_heard")
 """What of a deviation is one of a few values; the rest may hold free text, or tell another session."""
 
+_WORDED = ("reason", "why", "message")
+"""What of a deviation is free text."""
+
+
+_DEVIATION_COLUMNS: tuple[Column[_Deviated], ...] = make_columns(
+    (PARTICIPANT, lambda row: row.kept.name),
+    (
+        Variable("deviation", "The number of the deviation in the session, in the order of time.", ColumnKind.WHOLE),
+        lambda row: row.number,
+    ),
+    (
+        Variable(
+            "what_deviated",
+            "What was done, or happened, at the booth.",
+            levels=enum_levels(sorted(DEVIATIONS, key=lambda each: each.value)),
+        ),
+        lambda row: row.what.kind.value,
+    ),
+    (
+        Variable(
+            "deviation_ms",
+            "When, from the session's first event.",
+            ColumnKind.WHOLE,
+            "ms",
+            empty="it was before the session and after the one before, and can concern this one",
+        ),
+        lambda row: row.what.at_ms,
+    ),
+    (
+        Variable(
+            "deviation_stage",
+            "The stage that the session was in.",
+            levels=enum_levels(Stage),
+            empty="it was before the session",
+        ),
+        lambda row: row.stage.value if row.stage else None,
+    ),
+    (
+        Variable(
+            "deviation_reason",
+            "The reason that the experimenter chose.",
+            levels=enum_levels(DeviationReason),
+            empty="none was asked for",
+        ),
+        lambda row: row.reason,
+    ),
+    (
+        Variable(
+            "deviation_detail",
+            "What was chosen or reported, such as a condition, as one JSON object.",
+            ColumnKind.JSON,
+            empty="there is nothing to tell",
+        ),
+        lambda row: {name: row.what.payload[name] for name in _DETAILS if name in row.what.payload} or None,
+    ),
+)
+_DEVIATION_WORDS: tuple[Column[_Deviated], ...] = make_columns(
+    (
+        Variable(
+            "words",
+            "What the experimenter typed as a reason, or what a failure said.",
+            empty="there were no words",
+        ),
+        lambda row: next((str(row.what.payload[name]) for name in _WORDED if name in row.what.payload), None),
+    ),
+)
+
 
 def deviations_table(extras: frozenset[ExportOption]) -> Table[SessionRecord, _Deviated]:
     """Return the table of deviations; what an experimenter typed and messages only if texts are asked for."""
-    texts: tuple[tuple[Variable, Callable[[_Deviated], Cell]], ...] = ()
-    if ExportOption.TEXTS in extras:
-        told = ("reason", "why", "message")
-        texts = (
-            (
-                Variable(
-                    "words",
-                    "What the experimenter typed as a reason, or what a failure said.",
-                    empty="there were no words",
-                ),
-                lambda row: next((str(row.what.payload[name]) for name in told if name in row.what.payload), None),
-            ),
-        )
-    columns: tuple[Column[_Deviated], ...] = make_columns(
-        (PARTICIPANT, lambda row: row.kept.name),
-        (
-            Variable(
-                "deviation", "The number of the deviation in the session, in the order of time.", ColumnKind.WHOLE
-            ),
-            lambda row: row.number,
-        ),
-        (
-            Variable(
-                "what_deviated",
-                "What was done, or happened, at the booth.",
-                levels=enum_levels(sorted(DEVIATIONS, key=lambda each: each.value)),
-            ),
-            lambda row: row.what.kind.value,
-        ),
-        (
-            Variable(
-                "deviation_ms",
-                "When, from the session's first event.",
-                ColumnKind.WHOLE,
-                "ms",
-                empty="it was before the session and after the one before, and can concern this one",
-            ),
-            lambda row: row.what.at_ms,
-        ),
-        (
-            Variable(
-                "deviation_stage",
-                "The stage that the session was in.",
-                levels=enum_levels(Stage),
-                empty="it was before the session",
-            ),
-            lambda row: row.stage.value if row.stage else None,
-        ),
-        (
-            Variable(
-                "deviation_reason",
-                "The reason that the experimenter chose.",
-                levels=enum_levels(DeviationReason),
-                empty="none was asked for",
-            ),
-            lambda row: row.reason,
-        ),
-        (
-            Variable(
-                "deviation_detail",
-                "What was chosen or reported, such as a condition, as one JSON object.",
-                ColumnKind.JSON,
-                empty="there is nothing to tell",
-            ),
-            lambda row: {name: row.what.payload[name] for name in _DETAILS if name in row.what.payload} or None,
-        ),
-        *texts,
-    )
     return Table(
         "deviations",
         "One row for every deviation at the booth, with the session that it concerns: the one that was under way, or "
         "else the next. The clock of the kiosk tells which. There are none where data of several sites were merged.",
         (PARTICIPANT.name, "deviation"),
-        columns,
+        _DEVIATION_COLUMNS + (_DEVIATION_WORDS if ExportOption.TEXTS in extras else ()),
         lambda kept: [_Deviated(kept, number, what) for number, what in enumerate(kept.deviations, 1)],
     )

@@ -12,7 +12,7 @@ from kiosk.experiment.item_responses import ItemResponse
 from kiosk.experiment.projections import Measures, ScaleScore, item_responses, measure_game
 from kiosk.experiment.session_state import SessionState
 from kiosk.export.columns import Cell, Column, ColumnKind, Variable
-from kiosk.export.responses import scores_table, session_about_you
+from kiosk.export.responses import session_about_you, session_scores
 from kiosk.store.allocation import slots_by_block, slots_from_json
 from kiosk.store.session_records import SessionRecord
 
@@ -61,7 +61,7 @@ class Person:
     @cached_property
     def scores(self) -> dict[tuple[str, str], ScaleScore]:
         """The scales, by questionnaire and name."""
-        return {(score.questionnaire, score.scale): score for score in scores_table(self.kept)}
+        return {(score.questionnaire, score.scale): score for score in session_scores(self.kept)}
 
 
 def _measured(

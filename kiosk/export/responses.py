@@ -90,6 +90,67 @@ def _answers(kept: SessionRecord) -> Iterator[_Answer]:
                 yield _Answer(kept, questionnaire, item, positions.get(item.id), given[key])
 
 
+_ASKED_COLUMNS: tuple[Column[_Answer], ...] = make_columns(
+    (PARTICIPANT, lambda row: row.kept.name),
+    (QUESTIONNAIRE, lambda row: row.questionnaire.id),
+    (VERSION, lambda row: row.questionnaire.version),
+    (Variable("item", "The item, by its name in the questionnaire."), lambda row: row.item.id),
+    (
+        Variable(
+            "item_position",
+            "The position at which the item came in its questionnaire, from 1.",
+            ColumnKind.WHOLE,
+            empty="it did not",
+        ),
+        lambda row: row.position,
+    ),
+    (
+        Variable("kind", "What kind of item it is.", levels=_ANSWERED_KINDS),
+        lambda row: row.item.kind,
+    ),
+)
+_COUNTED_COLUMNS: tuple[Column[_Answer], ...] = make_columns(
+    (
+        Variable(
+            "scored",
+            "The answer as it counts: of a rating, the number, turned round if the item is reversed.",
+            ColumnKind.WHOLE,
+            empty="the answer is none, or answers of its kind are not counted",
+        ),
+        lambda row: row.scored,
+    ),
+    (
+        Variable("reversed", "Whether the item is turned round before it is summed.", ColumnKind.TRUTH),
+        lambda row: isinstance(row.item, Rating) and row.item.reverse,
+    ),
+    (SCALE, lambda row: row.item.scale if isinstance(row.item, Rating) else None),
+    (
+        Variable(
+            "first_response_ms",
+            "From when the page was shown to the first answer, less pauses.",
+            ColumnKind.WHOLE,
+            "ms",
+            empty=_UNANSWERED,
+        ),
+        lambda row: row.answered.first_ms,
+    ),
+    (
+        Variable(
+            "last_response_ms",
+            "The same to the last answer, also one that took it back.",
+            ColumnKind.WHOLE,
+            "ms",
+            empty=_UNANSWERED,
+        ),
+        lambda row: row.answered.last_ms,
+    ),
+    (
+        Variable("changes", "How often the answer was changed, or taken back, after the first.", ColumnKind.WHOLE),
+        lambda row: row.answered.changes,
+    ),
+)
+
+
 def answers_table(study: StudyMaterials, extras: frozenset[ExportOption]) -> Table[SessionRecord, _Answer]:
     """Return the table of answers; what was typed and exact ages only if they are asked for."""
     with_texts = ExportOption.TEXTS in extras
@@ -107,23 +168,6 @@ def answers_table(study: StudyMaterials, extras: frozenset[ExportOption]) -> Tab
         return told if isinstance(told, int) else None
 
     given: tuple[Column[_Answer], ...] = make_columns(
-        (PARTICIPANT, lambda row: row.kept.name),
-        (QUESTIONNAIRE, lambda row: row.questionnaire.id),
-        (VERSION, lambda row: row.questionnaire.version),
-        (Variable("item", "The item, by its name in the questionnaire."), lambda row: row.item.id),
-        (
-            Variable(
-                "item_position",
-                "The position at which the item came in its questionnaire, from 1.",
-                ColumnKind.WHOLE,
-                empty="it did not",
-            ),
-            lambda row: row.position,
-        ),
-        (
-            Variable("kind", "What kind of item it is.", levels=_ANSWERED_KINDS),
-            lambda row: row.item.kind,
-        ),
         (
             Variable(
                 "value",
@@ -141,51 +185,13 @@ def answers_table(study: StudyMaterials, extras: frozenset[ExportOption]) -> Tab
             ),
             number,
         ),
-        (
-            Variable(
-                "scored",
-                "The answer as it counts: of a rating, the number, turned round if the item is reversed.",
-                ColumnKind.WHOLE,
-                empty="the answer is none, or answers of its kind are not counted",
-            ),
-            lambda row: row.scored,
-        ),
-        (
-            Variable("reversed", "Whether the item is turned round before it is summed.", ColumnKind.TRUTH),
-            lambda row: isinstance(row.item, Rating) and row.item.reverse,
-        ),
-        (SCALE, lambda row: row.item.scale if isinstance(row.item, Rating) else None),
-        (
-            Variable(
-                "first_response_ms",
-                "From when the page was shown to the first answer, less pauses.",
-                ColumnKind.WHOLE,
-                "ms",
-                empty=_UNANSWERED,
-            ),
-            lambda row: row.answered.first_ms,
-        ),
-        (
-            Variable(
-                "last_response_ms",
-                "The same to the last answer, also one that took it back.",
-                ColumnKind.WHOLE,
-                "ms",
-                empty=_UNANSWERED,
-            ),
-            lambda row: row.answered.last_ms,
-        ),
-        (
-            Variable("changes", "How often the answer was changed, or taken back, after the first.", ColumnKind.WHOLE),
-            lambda row: row.answered.changes,
-        ),
     )
     return Table(
         "answers",
         "One row for every item that a participant could be asked, whether it was answered or not. Sessions whose "
         "questionnaires cannot be read any more have none; their events tell what was answered.",
         ("participant_id", "questionnaire", "item"),
-        given,
+        (*_ASKED_COLUMNS, *given, *_COUNTED_COLUMNS),
         _answers,
     )
 
@@ -197,7 +203,7 @@ class _Score:
     score: ScaleScore
 
 
-def scores_table(kept: SessionRecord) -> tuple[ScaleScore, ...]:
+def session_scores(kept: SessionRecord) -> tuple[ScaleScore, ...]:
     """Return the scales of a session's questionnaires."""
     questionnaires = session_questionnaires(kept)
     return scale_scores(item_responses(kept.state, questionnaires), questionnaires)
@@ -205,7 +211,7 @@ def scores_table(kept: SessionRecord) -> tuple[ScaleScore, ...]:
 
 def _scores(kept: SessionRecord) -> Iterator[_Score]:
     questionnaires = {questionnaire.id: questionnaire for questionnaire in session_questionnaires(kept)}
-    yield from (_Score(kept, questionnaires[score.questionnaire], score) for score in scores_table(kept))
+    yield from (_Score(kept, questionnaires[score.questionnaire], score) for score in session_scores(kept))
 
 
 _SCORE_COLUMNS: tuple[Column[_Score], ...] = make_columns(
