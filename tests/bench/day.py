@@ -1,4 +1,4 @@
-"""What a day costs a kiosk: ``python -m tests.bench.day [--sessions 200] [--gaps 3] [--seconds 60]``.
+"""What a day costs a kiosk: ``python -m tests.bench.day [--sessions 200] [--gaps 3] [--speed 1] [--seconds 60]``.
 
 It prints how much memory and how many handles each session leaves behind, with a robot that fails at random; how long
 the event loop keeps anything waiting in real time; and which share of a core the start screen and a game at rest take.
@@ -84,6 +84,11 @@ class Gaps(QObject):
             self.found.append(Gap(self._begin, now, late, ours, beside, queued - self._queued))
         self._begin, self._worked, self._all, self._queued = now, worked, all_worked, queued
 
+    def rest(self) -> None:
+        """Count what has passed since the last beat, and leave out what comes before the next one."""
+        self._beat()
+        self._begin = 0.0
+
 
 class Resting(Rehearsal):
     """A visitor who stops in the middle of a game; the share of a core is taken from there on."""
@@ -134,19 +139,21 @@ def memory(folder: Path, sessions: int) -> None:
     )
 
 
-def gaps(folder: Path, sessions: int) -> None:
-    """Print how late the event loop is in real time, while the robot fails at random."""
+def gaps(folder: Path, sessions: int, speed: float) -> None:
+    """Print how late the event loop is in real time, or so many times as fast, while the robot fails at random."""
     with (
-        kiosk(folder, RunMode(WindowMode.NOWHERE, ClockMode.WALL), FlakyRobot(1)) as app,
+        kiosk(folder, RunMode(WindowMode.NOWHERE, ClockMode.WALL, speed), FlakyRobot(1)) as app,
         watched_stops() as stops,
     ):
         _prepare(app)
-        # A kiosk runs its loop once; here it begins anew with each visitor, and would look through everything again.
+        # A kiosk runs its loop once. Here it begins anew with each visitor, and would look through everything again.
         gc.collect()
         gc.freeze()
         seen = Gaps()
         for seed in range(sessions):
             Rehearsal(app, seed).run()
+            # The next visitor is made, and garbage is looked for, while no loop runs: a kiosk has no such time.
+            seen.rest()
         gc.unfreeze()
     stood = [stops.within(gap.begin, gap.end) for gap in seen.found]
     ours = [max(0.0, gap.late - max(gap.queued, still)) for gap, still in zip(seen.found, stood, strict=True)]
@@ -191,12 +198,18 @@ def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("--sessions", type=int, default=200, help="sessions for memory, 3 or more; 0 leaves it out")
     parser.add_argument("--gaps", type=int, default=3, help="sessions in real time; 0 leaves them out")
+    parser.add_argument("--speed", type=float, default=1, help="how many times as fast as people their visitors are")
     parser.add_argument("--seconds", type=float, default=60, help="time for each share; 0 leaves them out")
     asked = parser.parse_args()
     if asked.sessions in (1, 2):
         parser.error("--sessions: a slope needs 3 sessions or more")
     os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
-    for measure, amount in ((memory, asked.sessions), (gaps, asked.gaps), (shares, asked.seconds)):
+    measures = (
+        (memory, asked.sessions),
+        (lambda folder, sessions: gaps(folder, sessions, asked.speed), asked.gaps),
+        (shares, asked.seconds),
+    )
+    for measure, amount in measures:
         if amount:
             with tempfile.TemporaryDirectory() as folder:
                 measure(Path(folder), amount)

@@ -7,17 +7,22 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from pytestqt.qtbot import QtBot
 
+from kiosk.config import Settings
 from kiosk.experiment.alarms import AlarmKind
 from kiosk.experiment.booth_status import CLOSED, FILE
 from kiosk.experiment.experimenter import Action
 from kiosk.experiment.outcomes import Stage
 from kiosk.store.maintenance import FreeSpace
 from kiosk.ui.experimenter.alarms import alarm_words
+from kiosk.ui.experimenter.health import DRIFT_MS
 from kiosk.ui.renderer import SoundEffect
 from kiosk.ui.simulated_visitor import find_item
+from kiosk.ui.window import RunMode, WindowMode
 from tests.samples import CATALOGUES
 from tests.ui.experimenter.conftest import LINE, Desk, MakeDesk
+from tests.ui.headless import headless
 
 FULL = FreeSpace(free_mib=100, hour_mib=101)
 ROOM = FreeSpace(free_mib=101, hour_mib=101)
@@ -78,6 +83,13 @@ def test_during_a_session_the_sound_waits_for_its_end_and_the_mark_does_not(
     assigner.do(Action.ABORT)
     assigner.wait_until(lambda: SoundEffect.ALARM.value in heard)
     assert assigner.app.experimenter.actions.resting
+
+
+def test_time_that_passes_faster_is_no_clock_that_was_set(qtbot: QtBot, tmp_path: Path) -> None:
+    with headless(Settings(), tmp_path, mode=RunMode(WindowMode.NOWHERE, speed=1000)) as app:
+        qtbot.waitUntil(lambda: app.clock.now_ms() - app.started_ms > 2 * DRIFT_MS)
+        app.experimenter.alarms.see()
+        assert AlarmKind.CLOCK_CHANGED not in [alarm.kind for alarm in app.experimenter.alarms.alarms]
 
 
 @pytest.mark.parametrize(("setting", "expected"), [("always", [SoundEffect.ALARM.value]), ("never", [])])
