@@ -232,11 +232,6 @@ _FORMATS: Mapping[type, Callable[[Any], str]] = {
 """How each kind of cell is written."""
 
 
-def unmarked(cell: str) -> str:
-    """Return the text that ``marked`` made this cell of."""
-    return cell.removeprefix(MARK)
-
-
 def enum_levels(members: type[Enum] | Iterable[Enum], **meanings: str) -> tuple[Level, ...]:
     """Return the values of a closed set as they are recorded.
 

@@ -31,7 +31,6 @@ from kiosk.export.columns import (
     Variable,
     format_cell,
     marked,
-    unmarked,
 )
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import Layout, PsychDs
@@ -45,6 +44,11 @@ FORMULAS = ("=1+1", "+1+1", "-1+1", "@SUM(A1)", "\t=1+1", '=HYPERLINK("http://ex
 LABELS = ("1E-0001", "1E-1", "MAR1", "007", "TRUE", "NA", "nan", "inf", "T", "3/4", "12:30", "1.10")
 MARKS = ("'", "''=1", "'quoted'", '"', '"=1"', '"one quote')
 HARMLESS = ("ok", "none", "3 cats", "x=1", "naïve, 日本", 'say "so"', "5", "a\u2028b")
+
+
+def unmarked(cell: str) -> str:
+    """Return the text of a cell, as the codebook tells its readers to have it back."""
+    return cell.removeprefix("'")
 
 
 def as_pandas(cell: str) -> object:
