@@ -36,8 +36,8 @@ Rectangle {
     // Whether the word that ends typing has room beside the 0, as on a telephone's keys.
     readonly property bool ends: wideKeys && !field?.minus && ending.width + 28 * Theme.unit <= keyWidth
     readonly property var rows: flat ? ["12345", "67890"] : numbers ? ["123", "456", "789", ends ? "⌫0✓" : `${field?.minus ? "-" : ""}0⌫`] : form.keys[shown]
-    // Of the letters alone: the rows of a number depend on how wide its keys are.
-    readonly property int longest: Math.max(10, ...form.keys[shown].map(row => row.length))
+    // Not from the rows of a number, which depend on how wide its keys are.
+    readonly property int longest: numbers ? 10 : Math.max(10, ...form.keys[shown].map(row => row.length))
     readonly property real gap: (grand ? 20 : wideKeys && !field?.minus ? 16 : wideKeys || flat ? 12 : 8) * Theme.unit
     // How far the keys are from the edge that is drawn around a number's.
     readonly property real margin: wideKeys ? gap + border.width : flat ? 16 * Theme.unit : 0.6 * Theme.gap
