@@ -88,6 +88,15 @@ class Decision:
 
 
 @dataclass(frozen=True, slots=True)
+class Situation:
+    """What is decided from: the game, the help with the flip before, and the player's memory where it is modelled."""
+
+    game: Concentration
+    last: ActionSpec
+    memory: MemoryEstimate | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class DecisionRules:
     """What decides besides gate and table: timing by a model of memory, and exploration at random.
 
@@ -114,39 +123,36 @@ class DecisionRules:
         """Return ``greedy``, or with the probability of exploring one of all actions."""
         return rng.choice(actions) if self.explore and rng.random() < self.explore else greedy
 
+    def decide(
+        self,
+        situation: Situation,
+        policy: Policy,
+        point: Callable[[Concentration], Target],
+        override: ActionSpec | None = None,
+        rng: Random | None = None,
+    ) -> Decision:
+        """Decide about the coming flip; ``point`` is asked only for a hint.
+
+        ``override`` is taken instead of the action that gate, table and chance come to. Rules that time help by memory
+        need the memory of the situation; ``rng`` is asked only by rules that explore.
+        """
+        game, memory = situation.game, situation.memory
+        state, verdict = State.of(game, situation.last), policy.gate.decide(game)
+        by_memory = self.timing.action(memory, game.flips) if self.timing and memory else None
+        q = policy.row(state) if by_memory is None else ()
+        greedy, probability = ActionSpec.NO_HELP, 1.0
+        if verdict.is_open:
+            greedy = policy.action(state) if by_memory is None else by_memory
+        action = greedy if override is None else override
+        if verdict.is_open and self.explore:
+            if override is None and rng is not None:
+                action = self.draw(greedy, policy.actions, rng)
+            probability = self.probability(action, greedy, policy.actions)
+        hint = Hint.coming(action, point(game), game) if action.needs_target else None
+        return Decision(state, verdict, q, action, hint, policy.actions, memory, by_memory, probability, game.flips)
+
 
 BY_TABLE = DecisionRules()
-
-
-def decide(  # noqa: PLR0913 - what a decision is made from
-    game: Concentration,
-    last: ActionSpec,
-    policy: Policy,
-    point: Callable[[Concentration], Target],
-    override: ActionSpec | None = None,
-    *,
-    rules: DecisionRules = BY_TABLE,
-    memory: MemoryEstimate | None = None,
-    rng: Random | None = None,
-) -> Decision:
-    """Decide about the coming flip of ``game``, after ``last``; ``point`` is asked only for a hint.
-
-    ``override`` is taken instead of the action that gate, table and chance come to. ``rules`` that time help by memory
-    need ``memory``; ``rng`` is asked only by rules that explore.
-    """
-    state, verdict = State.of(game, last), policy.gate.decide(game)
-    by_memory = rules.timing.action(memory, game.flips) if rules.timing and memory else None
-    q = policy.row(state) if by_memory is None else ()
-    greedy, probability = ActionSpec.NO_HELP, 1.0
-    if verdict.is_open:
-        greedy = policy.action(state) if by_memory is None else by_memory
-    action = greedy if override is None else override
-    if verdict.is_open and rules.explore:
-        if override is None and rng is not None:
-            action = rules.draw(greedy, policy.actions, rng)
-        probability = rules.probability(action, greedy, policy.actions)
-    hint = Hint.coming(action, point(game), game) if action.needs_target else None
-    return Decision(state, verdict, q, action, hint, policy.actions, memory, by_memory, probability, game.flips)
 
 
 class Assistant:
@@ -171,16 +177,8 @@ class Assistant:
 
         The game must not be over. ``override`` is taken instead, where what was decided is known.
         """
-        decision = decide(
-            game,
-            self._last,
-            self._policy,
-            self._mentaliser.target,
-            override,
-            rules=self._rules,
-            memory=self._estimate(game),
-            rng=self._rng,
-        )
+        situation = Situation(game, self._last, self._estimate(game))
+        decision = self._rules.decide(situation, self._policy, self._mentaliser.target, override, self._rng)
         self._last = decision.action
         return decision
 

@@ -16,7 +16,7 @@ from kiosk.assistance.assistant import (
     DecisionRules,
     Explanation,
     Policy,
-    decide,
+    Situation,
     explain_decision,
     game_after,
     memory_before_flip,
@@ -145,7 +145,7 @@ class DecisionContext:
             return self._commented(explain_decision(game, self._undecided(game), None, None))
         point = partial(self._point, given.mentaliser)
         taken = self.override or (self.hesitated.action if self.hesitated else self.drawn)
-        decision = decide(game, self.last, self.policy, point, taken, rules=self.rules, memory=self.memory)
+        decision = self.rules.decide(Situation(game, self.last, self.memory), self.policy, point, taken)
         overridden = self.override is not None
         explanation = explain_decision(game, decision, given.mentaliser, given.sentences, overridden=overridden)
         return self._commented(replace(explanation, rules=self.rules, hesitation=_hesitation(self.hesitated)))
