@@ -488,8 +488,8 @@ def test_an_upright_page_s_keys_stand_below_their_question_over_all_others_until
     assert all(len({top for _, top in row}) == 1 for row in places)
     foot = booth.item("item-robots").mapToScene(QPointF(0, booth.item("item-robots").height())).y()
     assert 0 < foot - keys[-1][-1].mapToScene(QPointF(0, keys[-1][-1].height())).y() < 40
-    # Questions that they may cover step back until the keys go.
-    others = [booth.item(name) for name in ("item-gender", "item-robots")]
+    # Questions that they may cover step back until the keys go, and so does the way on.
+    others = [booth.item(name) for name in ("item-gender", "item-robots")] + [booth.item("continue").parentItem()]
     assert booth.item("item-age").opacity() == 1 > max(other.opacity() for other in others)
     # Nothing can be stepped before there is a number, nor while the keys enter it: the field stays as wide.
     field = booth.item("number-age")

@@ -17,10 +17,9 @@ PageFrame {
     readonly property bool lined: shape.lined
     // Whether the keys of a number stand in the helper's place.
     readonly property bool keysBeside: keyboard.visible && keyboard.numbers
-    // Or over other questions.
-    readonly property bool keysOver: keysBeside && shape.upright && !shape.alone
-    // These step back then. Pale letters would not have the contrast that was asked for.
-    readonly property real setBack: keysOver && !Theme.highContrast ? 0.3 : 1
+    // Or over an upright page. Its other questions and its way on step back then: what is next is to be done with typing.
+    // Pale letters would not have the contrast that was asked for.
+    readonly property real setBack: keysBeside && shape.upright && !Theme.highContrast ? 0.3 : 1
 
     // What is over the first card in the title's line beside its words.
     readonly property rect bare: {
@@ -40,7 +39,7 @@ PageFrame {
     way.waits: !form.skips && !form.complete
     way.reason: form.waiting
     way.note: way.fills && way.waits ? form.waiting : ""
-    way.opacity: keyboard.grand ? 1 : setBack
+    way.opacity: setBack
     label: words[form.skips ? "form-skip" : "form-next"]
     beside: progress
     besides: shape.numbered
