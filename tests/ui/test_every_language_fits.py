@@ -523,7 +523,10 @@ def rating_pages(
         lay_out(kiosk[0].shown)
         ends = [[find_item(ground, f"answer-{item.id}-{end}") for end in item.ends] for item in page]
         scales = [reduce(QRectF.united, (whole(end) for end in both if end is not None)) for both in ends]
-        cards = [whole(card) for item in page if (card := find_item(ground, f"item-{item.id}")) is not None]
+        # What is drawn of an item, without the distance to the one above it.
+        cards = [
+            whole(box.childItems()[0]) for item in page if (box := find_item(ground, f"item-{item.id}")) is not None
+        ]
         asked = {text.property("text").replace("\xa0", " "): painted(text) for text in texts(ground)}
         shown = [asked[item["shown"].replace("\xa0", " ")] for item in screens.form.property("items")]
         yield list(zip([item.points for item in page], cards, shown, scales, strict=True))
@@ -541,10 +544,12 @@ def test_cards_stand_at_the_same_places_on_all_pages_of_four_ratings(
     assert len(even) > 3
     assert len({tuple(round(card.y()) for _, card, _, _ in page) for page in even}) == 1
     assert len({round(card.height()) for page in even for _, card, _, _ in page}) == 1
-    gaps = {
-        round(after.top() - card.bottom()) for page in pages for (_, card, _, _), (_, after, _, _) in pairwise(page)
-    }
-    assert len(gaps) == 1
+    assert len({gap for page in even for gap in gaps(page)}) == 1
+
+
+def gaps(page: list[tuple[int, QRectF, QRectF, QRectF]]) -> list[int]:
+    """Return how far the cards of a page of ratings are apart."""
+    return [round(after.top() - card.bottom()) for (_, card, _, _), (_, after, _, _) in pairwise(page)]
 
 
 FIVE = 5
@@ -564,17 +569,52 @@ def test_scales_of_ratings_stand_at_the_same_places_on_all_pages(
     assert len(places) == 1
 
 
-def test_ten_points_of_a_wide_page_are_as_large_as_five_and_stand_below_their_question(
+def test_ten_points_of_a_wide_page_are_as_large_as_five_and_stand_below_their_question_and_apart(
     kiosk: tuple[Window, StudyConfig],
 ) -> None:
-    *_, (*fives, (points, card, shown, scale)) = rating_pages(kiosk, Layout(1920, 1080))
+    *_, page = rating_pages(kiosk, Layout(1920, 1080))
+    *fives, (points, card, shown, scale) = page
     assert points == 10
+    *usual, apart = gaps(page)
+    assert apart >= max(usual) + 30
     assert len({round(five.height()) for _, five, _, _ in fives}) == 1
     assert {(round(five.height()), round(five.right())) for *_, five in fives} == {
         (round(scale.height()), round(scale.right()))
     }
-    assert card.top() + 24 < shown.top() < shown.bottom() + 12 < scale.top() < scale.bottom() < card.bottom() - 24
+    assert card.top() + 18 < shown.top() < shown.bottom() + 12 < scale.top() < scale.bottom() < card.bottom() - 24
     assert abs((shown.top() - card.top()) - (card.bottom() - scale.bottom())) < 12
+
+
+def test_ten_points_of_an_upright_page_are_the_equal_fields_of_one_bar(kiosk: tuple[Window, StudyConfig]) -> None:
+    *_, page = rating_pages(kiosk, Layout(1080, 1920))
+    points, card, _, scale = page[-1]
+    name = ASKED["trust"].items[-1].id
+    ground = kiosk[0].shown.contentItem()
+    fields = [item for n in range(1, points + 1) if (item := find_item(ground, f"answer-{name}-{n}")) is not None]
+    places = [whole(field) for field in fields]
+    assert len(places) == points == 10
+    assert {round(after.left() - field.right()) for field, after in pairwise(places)} == {0}
+    # Neighbours share the line between them.
+    drawn = [whole(background_of(field)) for field in fields]
+    assert {round(after.left() - field.right()) for field, after in pairwise(drawn)} == {-3}
+    assert max(field.width() for field in places) - min(field.width() for field in places) <= 1
+    assert {round(field.height()) for field in places} == {round(page[0][3].height())}
+    assert abs((scale.left() - card.left()) - (card.right() - scale.right())) <= 1
+    ends = [painted(text) for text in texts(ground) if text.property("text") in ("not at all", "completely")]
+    assert [scale.bottom() < end.top() < card.bottom() for end in ends] == [True, True]
+    # Only the bar's own ends are round, and what is chosen is filled.
+    corners = [[part.property(f"top{side}Radius") for side in ("Left", "Right")] for part in map(background_of, fields)]
+    assert corners[0][0] == corners[-1][1] > 0
+    assert {*corners[0][1:], *(corner for inner in corners[1:-1] for corner in inner), *corners[-1][:1]} == {0}
+    kiosk[0].screens.form.show_answer(name, 7)
+    fills = [background_of(field).property("color").name() for field in fields]
+    assert [fills.count(fill) for fill in (fills[0], fills[6])] == [9, 1]
+
+
+def background_of(button: QQuickItem) -> QQuickItem:
+    """Return what is drawn behind the words of a button."""
+    behind: QQuickItem = button.property("background")
+    return behind
 
 
 def test_statements_of_an_upright_page_of_ratings_are_as_high_and_as_far_from_their_scales(

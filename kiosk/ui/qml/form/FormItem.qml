@@ -285,6 +285,7 @@ Item {
             tight: box.page.tight
             large: box.page.large
             even: box.page.ample
+            joins: box.page.upright
             onChosen: point => box.form.rate(box.item.id, point)
         }
     }

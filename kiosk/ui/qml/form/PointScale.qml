@@ -31,6 +31,8 @@ Item {
     property real lift: 0
     // Whether a row of small points is given as much height as one of large ones.
     property bool even: false
+    // Whether more points than stand well in a row are the equal fields of one bar.
+    property bool joins: false
     signal chosen(int point)
 
     readonly property bool pictured: pictures.length > 0
@@ -39,10 +41,13 @@ Item {
     // from edge to edge, and the words stand below them.
     readonly property bool many: points > 7 && !pictured
     readonly property bool spread: flank !== null && many && !crowned
-    readonly property real size: spread ? Math.min(76 * Theme.unit, filling) : flank?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
+    readonly property bool joined: joins && many
+    // Two fields share the line between them.
+    readonly property real line: Math.max(1, Math.round(3 * Theme.unit))
+    readonly property real size: joined ? Math.floor(width) / points : spread ? Math.min(76 * Theme.unit, filling) : flank?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
     // How high they are: much smaller ones that are given that height take it, and are easier to hit.
     readonly property bool evened: even && below && !alone && !pictured
-    readonly property bool long: evened && size < 0.85 * wish
+    readonly property bool long: joined || evened && size < 0.85 * wish
     readonly property real tall: long ? wish : size
     // How much of that height they leave, above themselves and below.
     readonly property real inset: evened ? Math.max(0, (wish - tall) / 2) : 0
@@ -54,8 +59,8 @@ Item {
     readonly property real rightRoom: crowned ? Math.max(flank?.right ?? 0, highest.implicitWidth) : flank ? flank.right : roomy ? highest.implicitWidth : Math.min(highest.implicitWidth, most)
     readonly property real spare: width - leftRoom - rightRoom - 2 * Theme.gap - points * size
     readonly property real least: 0.42 * size * (points - 1)
-    readonly property bool below: spread || !flank && (alone || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least))
-    readonly property real gap: flank && !spread ? spare / Math.max(1, points - 1) : beside || many && below && !alone ? (width - points * size) / Math.max(1, points - 1) : pictured ? 0.4 * size : alone ? (many ? 0.24 : 0.25) * size
+    readonly property bool below: spread || joined || !flank && (alone || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least))
+    readonly property real gap: joined ? 0 : flank && !spread ? spare / Math.max(1, points - 1) : beside || many && below && !alone ? (width - points * size) / Math.max(1, points - 1) : pictured ? 0.4 * size : alone ? (many ? 0.24 : 0.25) * size
         : Math.min(1.6 * size, Math.max(0.25 * size, (below ? width - points * size : spare) / Math.max(1, points - 1)))
     readonly property real span: points * size + (points - 1) * gap
 
@@ -100,7 +105,7 @@ Item {
     }
     // The line that joins the points to a scale.
     Rectangle {
-        visible: !scale.pictured
+        visible: !scale.pictured && !scale.joined
         x: row.x + scale.size / 2
         y: row.y + (scale.tall - height) / 2
         width: scale.span - scale.size
@@ -130,8 +135,14 @@ Item {
                 on: scale.value === number
                 focusPolicy: on || (scale.value === 0 && index === 0) ? Qt.StrongFocus : Qt.ClickFocus
                 focus: index === 0
-                width: scale.size
+                // Lines between fields are on whole pixels.
+                width: scale.joined ? Math.round((index + 1) * scale.size) - Math.round(index * scale.size) : scale.size
                 height: scale.tall
+                readonly property bool leftmost: index === (Theme.mirrored ? scale.points - 1 : 0)
+                readonly property bool rightmost: index === (Theme.mirrored ? 0 : scale.points - 1)
+                rightInset: scale.joined && !rightmost ? -scale.line : 0
+                // Its whole edge is seen when it differs from those of its neighbours.
+                z: scale.joined && (on || hovered || visualFocus) ? 1 : 0
                 scale: down ? 0.94 : 1
                 Accessible.role: Accessible.RadioButton
                 Accessible.name: `${scale.label} ${number}` + (index === 0 ? ` ${scale.leftEnd}` : number === scale.points ? ` ${scale.rightEnd}` : "")
@@ -144,8 +155,9 @@ Item {
                         textFormat: Text.PlainText
                         anchors.centerIn: parent
                         visible: !scale.pictured
+                        readonly property real reach: Math.min(scale.size, scale.tall)
                         text: point.number
-                        font { pixelSize: Math.min(Theme.heading, Math.max((scale.inset > 0 || scale.long ? 0.48 : 0.42) * scale.size, Math.min(Theme.body, 0.5 * scale.size))); bold: true }
+                        font { pixelSize: Math.min(Theme.heading, Math.max((scale.inset > 0 || scale.long ? 0.48 : 0.42) * reach, Math.min(Theme.body, 0.5 * reach))); bold: true }
                         color: point.on ? Theme.white : Theme.ink
                     }
                     Image {
@@ -158,7 +170,12 @@ Item {
                     }
                 }
                 background: Rectangle {
-                    radius: scale.pictured ? Theme.radius : width / 2
+                    radius: scale.pictured || scale.joined ? Theme.radius : width / 2
+                    // A bar is round at its own ends.
+                    topLeftRadius: scale.joined && !point.leftmost ? 0 : radius
+                    bottomLeftRadius: topLeftRadius
+                    topRightRadius: scale.joined && !point.rightmost ? 0 : radius
+                    bottomRightRadius: topRightRadius
                     // Only what is chosen is filled; the pointer over it changes the edge alone.
                     color: point.on ? (scale.pictured ? Theme.sand : Theme.sea) : scale.pictured ? Theme.white : Theme.touchable
                     border.color: Theme.sea
@@ -166,7 +183,7 @@ Item {
                     FocusRing {
                         around: point
                         reach: 8 * Theme.unit
-                        radius: scale.pictured ? Theme.radius + reach : width / 2
+                        radius: scale.pictured ? Theme.radius + reach : scale.joined ? Theme.radius : width / 2
                     }
                 }
             }

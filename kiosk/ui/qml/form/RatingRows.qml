@@ -31,9 +31,10 @@ QtObject {
     readonly property real height: flank?.height ?? 98 * Theme.unit + widths.leading * Theme.size(28)
     readonly property real margin: flank !== null ? flank.margin - partings * parting / 2 / Math.max(1, page.seen().length) : 18 * Theme.unit
     // How much further from the row before it a row is where only one of them has many points below its question: they
-    // are seen as two kinds. The margins of all rows give it, where they are large enough.
+    // are seen as two kinds. The margins of all rows give it, as far as they are large enough.
     readonly property int partings: page.items.filter((_, at) => parts(at)).length
-    readonly property real parting: partings > 0 && (flank?.margin ?? 0) >= 22 * Theme.unit ? 18 * Theme.unit : 0
+    readonly property real parting: flank === null || partings === 0 ? 0
+        : Math.max(0, Math.min(36 * Theme.unit, 2 * (flank.margin - 18 * Theme.unit) * page.seen().length / partings))
 
     // The sizes of points, of the words for their ends and of questions that flanked rows are tried in, and in how many
     // lines these may stand.
