@@ -16,8 +16,8 @@ from kiosk.store.database import wait_until_free
 from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study
 from kiosk.ui.app import App
+from kiosk.ui.condition_assigner import ConditionAssigner, RunContext
 from kiosk.ui.event_loop import after_first_frame
-from kiosk.ui.session_runner import ConditionAssigner, RunContext
 from kiosk.ui.window import RunMode, Window, WindowMode, check_screen
 
 SEED_BITS = 63

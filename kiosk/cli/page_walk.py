@@ -16,8 +16,8 @@ from kiosk.experiment.session_config import StudyConfig
 from kiosk.guard import guarded
 from kiosk.study.loader import read_study
 from kiosk.ui.app import App
+from kiosk.ui.condition_assigner import ConditionAssigner, RunContext
 from kiosk.ui.rehearsal import Rehearsal
-from kiosk.ui.session_runner import ConditionAssigner, RunContext
 from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile, MemoryTraits, ReadingDriver, UiTimeout
 from kiosk.ui.window import ClockMode, RunMode, WindowMode
 

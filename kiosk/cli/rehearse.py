@@ -42,10 +42,10 @@ from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study
 from kiosk.training.simulated_players import PopulationPlayer
 from kiosk.ui.app import App
+from kiosk.ui.condition_assigner import ConditionAssigner, RunContext
 from kiosk.ui.rehearsal import CoversRehearsal, Rehearsal
 from kiosk.ui.rehearsed_day import ProcessUsage, day_summary, draw_visitors, rehearse_day
 from kiosk.ui.screenshots import LAYOUTS, Screenshots, layout_of, make_folder, resize
-from kiosk.ui.session_runner import ConditionAssigner, RunContext
 from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile, MemoryTraits, UiTimeout
 from kiosk.ui.window import ClockMode, RunMode, WindowMode, check_screen
 

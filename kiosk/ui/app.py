@@ -24,6 +24,7 @@ from kiosk.robots.driver import RobotDriver
 from kiosk.robots.registry import create_robot
 from kiosk.robots.selector import EmbodimentSelector
 from kiosk.store.recorder import Recorder
+from kiosk.ui.condition_assigner import ConditionAssigner
 from kiosk.ui.disk_writer import DiskWriter
 from kiosk.ui.event_loop import (
     Clock,
@@ -48,7 +49,7 @@ from kiosk.ui.renderer import SoundEffect
 from kiosk.ui.screens.attract import IdleLife
 from kiosk.ui.screens.avatar import AvatarBody
 from kiosk.ui.screens.registry import ScreenSet
-from kiosk.ui.session_runner import ConditionAssigner, SessionRunner
+from kiosk.ui.session_runner import SessionRunner
 from kiosk.ui.voice import EngineVoice, NoVoice, SilentVoice, Voice
 from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
 

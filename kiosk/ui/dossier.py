@@ -23,9 +23,9 @@ from kiosk.experiment.session_config import SessionConfig, StudyConfig
 from kiosk.files import check_writable
 from kiosk.store.recorder import Recorder
 from kiosk.ui.app import App
+from kiosk.ui.condition_assigner import ConditionAssigner, RunContext
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.screenshots import Screenshots
-from kiosk.ui.session_runner import ConditionAssigner, RunContext
 from kiosk.ui.simulated_visitor import BehaviourProfile, UiTimeout
 from kiosk.ui.window import ClockMode, RunMode, WindowMode
 

@@ -9,267 +9,30 @@ from dataclasses import replace
 from datetime import datetime
 from functools import partial
 from itertools import chain
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any
 
 from kiosk import StorageError
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.condition import AllocationSlot, Condition, condition_of_return
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.events import EmbodimentName, Event, InputDevice, SessionSetup, Timer, WorldEvent
-from kiosk.experiment.experimenter import AuditEvent
-from kiosk.experiment.outcomes import AllocationSource, RecordingState, SessionKind, Stage, Status
-from kiosk.experiment.session_config import StudyConfig
+from kiosk.experiment.events import Event, InputDevice, SessionSetup, Timer, WorldEvent
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.transitions import InvalidTransition
 from kiosk.lazy_dataclass import dataclass
 from kiosk.robots.selector import EmbodimentSelector
-from kiosk.store.participants import Participant, ReturningVisitor
+from kiosk.store.participants import ReturningVisitor
 from kiosk.store.recorder import Provenance, Recorder, StoreBusy
+from kiosk.ui.busy_wait import BusyWait
+from kiosk.ui.condition_assigner import ConditionAssigner
 from kiosk.ui.disk_writer import DiskWriter
 from kiosk.ui.event_loop import Clock, TimerWait
 from kiosk.ui.renderer import Renderer, SoundEffect, sound_for
 from kiosk.ui.returning import ReturnDesk
 from kiosk.ui.screens.registry import ScreenSet
-from kiosk.units import MS_PER_SECOND
+from kiosk.ui.session_recording import SessionRecording
 
 if TYPE_CHECKING:
     from kiosk.experiment.session import Session
-
-
-@dataclass(frozen=True)
-class _Choice:
-    """A condition that the experimenter chose; a later choice is another one, even of the same condition."""
-
-    condition: Condition
-
-
-@dataclass(frozen=True)
-class RunContext:
-    """What all sessions of a run of the program have in common."""
-
-    code_commit: str
-    kind: SessionKind
-    seed: Callable[[], int]
-    """Gives every session a seed of its own."""
-    condition: Condition | None = None
-    """Every session is in this one, whatever the list says, and takes no slot in it."""
-
-
-class ConditionAssigner:
-    """Chooses the next session's condition: the experimenter's, else the list's next, else the study file's."""
-
-    def __init__(self, study: StudyConfig, recorder: Recorder, origin: RunContext) -> None:
-        """Create the allocation list, if the study has targets.
-
-        Raises UserInputError if another list is fixed, and StorageError from the store.
-        """
-        self.study = study
-        self._recorder = recorder
-        self._origin = origin
-        self._choice: _Choice | None = None
-        self._followed: _Choice | None = None
-        """The choice that the latest session follows."""
-        allocation = study.settings.randomisation
-        quotas = {study.condition(name): quota for name, quota in allocation.target_n.items()}
-        self._listed = bool(quotas) and origin.condition is None
-        if self._listed:
-            recorder.create_allocation_list(quotas, allocation.block_size, allocation.seed, kind=origin.kind)
-
-    @property
-    def kind(self) -> SessionKind:
-        """Who sits there."""
-        return self._origin.kind
-
-    @property
-    def chosen(self) -> Condition | None:
-        """The condition that the experimenter chose for the next session; None for the list's."""
-        return self._choice.condition if self._choice else None
-
-    @property
-    def is_followed(self) -> bool:
-        """Whether the choice is that of the visitor who sits there, and not yet one for the visitor after."""
-        return self._choice is not None and self._choice is self._followed
-
-    def choose(self, condition: Condition | None, reason: str) -> None:
-        """Have the next session in this condition, or, with None, in the list's; raises StorageError."""
-        name = condition.name if condition else "automatic"
-        self._recorder.add_audit_event(AuditEvent.CONDITION_CHOSEN.value, {"condition": name, "reason": reason})
-        self._choice = None if condition is None else _Choice(condition)
-
-    def next_session(self, language: str, returning: ReturningVisitor | None = None) -> Provenance:
-        """Return what the session of a new participant, or of one who comes back, follows; raises StorageError."""
-        self._followed = self._choice
-        earlier = self._by_earlier_visits(returning) if returning else None
-        slot = self._next_slot() if self._listed and self._choice is None and earlier is None else None
-        condition = self.chosen or earlier or (slot.condition if slot else self._origin.condition)
-        plan = self.study.plan(language, condition)
-        return Provenance(
-            plan if returning is None else replace(plan, visit=returning.visit),
-            self._origin.seed(),
-            str(EmbodimentName.AVATAR),
-            self._origin.code_commit,
-            kind=self._origin.kind,
-            slot=slot,
-            allocation_source=AllocationSource.RETURNING if earlier else self._allocation_source(slot),
-            returning=returning,
-        )
-
-    def _by_earlier_visits(self, returning: ReturningVisitor) -> Condition | None:
-        """Return the condition that follows from earlier visits; None if it is found as for a new participant."""
-        if self._choice is not None or self._origin.condition is not None:
-            return None
-        settings = self.study.settings
-        listed = [Condition(name) for name in settings.randomisation.target_n]
-        condition = condition_of_return(settings.returning.condition, returning.conditions, listed)
-        # The study may have dropped a condition since.
-        return condition if condition is not None and condition.name in settings.all_conditions else None
-
-    def confirm_recorded(self, provenance: Provenance) -> None:
-        """Note that a session is on record: what was chosen for it does not hold for the one after."""
-        if provenance.allocation_source is AllocationSource.OVERRIDE and self._choice is self._followed:
-            self._choice = None
-
-    def _next_slot(self) -> AllocationSlot | None:
-        return self._recorder.next_slot(kind=self._origin.kind)
-
-    def _allocation_source(self, slot: AllocationSlot | None) -> AllocationSource | None:
-        if self._choice is not None:
-            return AllocationSource.OVERRIDE
-        if not self._listed:
-            return None
-        return AllocationSource.BEYOND if slot is None else AllocationSource.LIST
-
-
-class SessionRecording:
-    """What becomes of a session's events."""
-
-    def __init__(self, recorder: Recorder, provenance: Provenance, kept: Callable[[], None] = lambda: None) -> None:
-        """Nothing is written until an outcome says so; ``confirm`` calls ``kept`` once it is."""
-        self.code = ""
-        """What the participant can withdraw with; empty while nothing is stored."""
-        self.participant = ""
-        """The participant's number with its site, as lists show it; empty while nothing is stored."""
-        self._recorder = recorder
-        self._provenance = provenance
-        self._kept = kept
-        self._keeping = RecordingState.UNDECIDED
-        self._confirmed = False
-        self._held: list[Event] = []
-
-    @classmethod
-    def resumed(cls, recorder: Recorder, provenance: Provenance, number: int) -> Self:
-        """Return the record of a stored session that goes on."""
-        record = cls(recorder, provenance)
-        record._name(recorder.resume(number))
-        record._keeping = RecordingState.KEPT
-        record._confirmed = True
-        return record
-
-    @property
-    def is_kept(self) -> bool:
-        """Whether events are stored."""
-        return self._keeping is RecordingState.KEPT
-
-    def reaches_disk(self, outcome: Outcome) -> bool:
-        """Whether the disk is written to for an outcome."""
-        return self.is_kept or outcome.recording is not None
-
-    def confirm(self) -> None:
-        """Tell once, on the caller's thread, that the session is on record."""
-        if self.is_kept and not self._confirmed:
-            self._confirmed = True
-            self._kept()
-
-    def write(self, event: WorldEvent, outcome: Outcome) -> None:
-        """Write, hold back or forget an event and what came of it.
-
-        Raises StorageError if the disk does not take it.
-
-        Where it raises nothing has changed, so the same event can be written again after StoreBusy.
-        """
-        events = (event, *outcome.events)
-        match outcome.recording:
-            case do.StartRecording():
-                self._keep([*self._held, *events])
-            case do.DiscardRecording(why=why):
-                self._recorder.count_visit(why, kind=self._provenance.kind)
-                self._keeping = RecordingState.FORGOTTEN
-                self._held.clear()
-            case None if self._keeping is RecordingState.KEPT and self._is_deleted_by(outcome):
-                self._recorder.append_and_withdraw(events)
-                self._keeping = RecordingState.FORGOTTEN
-            case None if self._keeping is RecordingState.KEPT:
-                self._recorder.append(events)
-            case None if self._keeping is RecordingState.UNDECIDED:
-                self._held += events
-
-    def _name(self, participant: Participant) -> None:
-        self.code, self.participant = participant.code, participant.name
-
-    def _is_deleted_by(self, outcome: Outcome) -> bool:
-        """Whether the visitor has stopped, and the study deletes what it has of those who do."""
-        if self._provenance.plan.settings.consent.on_withdrawal == "keep":
-            return False
-        ends = (event.status for event in outcome.events if isinstance(event, happened.SessionEnded))
-        return any(status is Status.WITHDRAWN for status in ends)
-
-    def _keep(self, events: list[Event]) -> None:
-        self._name(self._recorder.begin(self._provenance, events))
-        self._keeping = RecordingState.KEPT
-        self._held.clear()
-
-
-RETRY_MS = 20
-"""How long until the same is tried again."""
-TOLD_AFTER_MS = 1_000
-"""A longer wait is shown to the person in front of the screen."""
-LONGEST_MS = 120_000
-"""After so long the database counts as failed."""
-
-
-class BusyWait:
-    """One wait for the database, from the first attempt that found it held to the one that did not."""
-
-    def __init__(self, clock: Clock, recorder_waits_ms: int, show: Callable[[bool], None]) -> None:
-        """Call ``show`` when the wait has become long, and again when a long wait is over.
-
-        A recorder that waits by itself at each attempt is tried again at once, so that virtual time stands still.
-        """
-        self._clock = clock
-        self._retry_ms = 0 if recorder_waits_ms else RETRY_MS
-        self._step_ms = recorder_waits_ms or RETRY_MS
-        self._show = show
-        self._wait: TimerWait | None = None
-        self._waited_ms = 0
-
-    @property
-    def under_way(self) -> bool:
-        """Whether something is to be tried again."""
-        return self._wait is not None
-
-    def try_again(self, call: Callable[[], None], busy: StoreBusy) -> None:
-        """Call back soon; raises StorageError, and ends the wait, once it has taken too long."""
-        self._waited_ms += self._step_ms
-        if self._waited_ms > LONGEST_MS:
-            self.end()
-            raise StorageError(f"{busy}; it was tried for {LONGEST_MS // MS_PER_SECOND} s") from busy
-        if self._waited_ms >= TOLD_AFTER_MS:
-            self._show(True)  # noqa: FBT003 - it is what is shown
-        self._wait = self._clock.after(self._retry_ms, lambda: self._call(call))
-
-    def end(self) -> None:
-        """Wait no more: the database took it, or nothing is to be tried again."""
-        if self._wait is not None:
-            self._wait.cancel()
-            self._wait = None
-        if self._waited_ms >= TOLD_AFTER_MS:
-            self._show(False)  # noqa: FBT003 - as above
-        self._waited_ms = 0
-
-    def _call(self, call: Callable[[], None]) -> None:
-        self._wait = None
-        call()
-
 
 ERROR_SCREEN_MS = 8_000
 """How long the error screen stays before the kiosk tries to go on."""

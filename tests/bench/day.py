@@ -33,9 +33,9 @@ from kiosk.robots.simulated import FlakyRobot
 from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study
 from kiosk.ui.app import App
+from kiosk.ui.condition_assigner import ConditionAssigner, RunContext
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.rehearsed_day import draw_visitors, rehearse_day
-from kiosk.ui.session_runner import ConditionAssigner, RunContext
 from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile
 from kiosk.ui.window import ClockMode, RunMode, WindowMode
 from kiosk.units import MS_PER_SECOND

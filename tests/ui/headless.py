@@ -17,7 +17,7 @@ from kiosk.robots.driver import RobotDriver
 from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study
 from kiosk.ui.app import App
-from kiosk.ui.session_runner import ConditionAssigner, RunContext
+from kiosk.ui.condition_assigner import ConditionAssigner, RunContext
 from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
 from tests.samples import SHORT
 

@@ -36,8 +36,8 @@ from kiosk.store.database import FILE
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.loader import read_study
 from kiosk.ui.app import App
+from kiosk.ui.condition_assigner import ConditionAssigner, RunContext
 from kiosk.ui.rehearsal import Rehearsal
-from kiosk.ui.session_runner import ConditionAssigner, RunContext
 from kiosk.ui.window import ClockMode, RunMode, WindowMode
 
 GONE = "gone"

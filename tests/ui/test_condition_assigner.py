@@ -13,7 +13,7 @@ from kiosk.experiment.condition import AllocationSlot, Condition
 from kiosk.experiment.outcomes import AllocationSource, SessionKind
 from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study
-from kiosk.ui.session_runner import ConditionAssigner, RunContext
+from kiosk.ui.condition_assigner import ConditionAssigner, RunContext
 
 LISTED = Settings.model_validate(
     {
