@@ -8,9 +8,10 @@ from typing import Any
 from kiosk.assistance.policy import ActionSpec
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.export.columns import ExportOption, Table, TableShape
+from kiosk.export.decision_tables import DECISIONS, MEMORY, MODELLED_DECISIONS
 from kiosk.export.flow import ParticipantFlow, flow_table
 from kiosk.export.game_tables import CARDS, FLIPS, POINTER_TRACES
-from kiosk.export.help_tables import DECISIONS, MEMORY, MODELLED_DECISIONS, REMARKS, hints_table
+from kiosk.export.help_tables import REMARKS, hints_table
 from kiosk.export.log_tables import SENTENCES, deviations_table, events_table
 from kiosk.export.participants import participants_table, renamed
 from kiosk.export.records import StudyMaterials
