@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 from kiosk.assistance.assistant import Assistant, Decision
 from kiosk.assistance.comments import Comment, Commentator
-from kiosk.assistance.hesitation import HesitationRule, PlayerTimes
+from kiosk.assistance.hesitation import HesitationRule
 from kiosk.assistance.hint_sentences import Sentences
 from kiosk.assistance.mentaliser import Hint
 from kiosk.assistance.policy import ActionSpec, FlipInMove
@@ -20,6 +20,7 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import BoardWait, Mood, OutcomeBuilder
 from kiosk.experiment.events import HintCue, RemarkTrigger, Timer, WorldEvent
+from kiosk.experiment.hesitation_watch import HesitationWatch
 from kiosk.experiment.page_stages import StageHandler
 from kiosk.game import Board, Concentration, Flip, IllegalFlip, Position
 from kiosk.lazy_dataclass import dataclass
@@ -117,7 +118,8 @@ class GameStage(StageHandler):
         self._comments = comments
         speaker = guide or comments
         self._sentences = speaker.sentences if speaker is not None else None
-        self._times = PlayerTimes(guide.hesitation) if guide is not None and guide.hesitation is not None else None
+        rule = guide.hesitation if guide is not None else None
+        self._hesitation = HesitationWatch(rule) if rule is not None else None
         self._timing = timing
         self._utterances = utterances
         self._given: _Given | None = None
@@ -189,7 +191,8 @@ class GameStage(StageHandler):
         except IllegalFlip as refusal:
             outcome.emit(happened.CardSelectionRejected(at_ms=outcome.at_ms, position=position, why=refusal.refusal))
             return
-        self._note_time(flip, outcome)
+        if self._hesitation is not None:
+            self._hesitation.end_wait(flip, outcome)
         given, self._given = self._given, None
         if given is not None and given.holds and not given.is_read and self._timing.tap_ends_sentence:
             outcome.emit(happened.SpeechCutShort(at_ms=outcome.at_ms, utterance=given.utterance))
@@ -315,7 +318,8 @@ class GameStage(StageHandler):
             self._give(comment.action, None, self._comments.sentences, outcome, comment)
             return
         outcome.effect(do.UnlockBoard())
-        self._await_hesitation(outcome)
+        if self._hesitation is not None:
+            self._hesitation.begin_wait(self.game, outcome)
 
     def _give(
         self,
@@ -379,46 +383,13 @@ class GameStage(StageHandler):
             outcome.emit(happened.BoardUnlocked(at_ms=outcome.at_ms))
             outcome.effect(do.UnlockBoard())
 
-    def _await_hesitation(self, outcome: OutcomeBuilder) -> None:
-        """Wait until the player would be hesitating, where hesitation is helped."""
-        if self._times is not None:
-            self._times.open(outcome.at_ms)
-            threshold_ms = self._times.threshold_ms(FlipInMove.coming(self.game))
-            if threshold_ms is not None:
-                outcome.effect(do.StartTimer(Timer.HESITATION, threshold_ms))
-
-    def _note_time(self, flip: Flip, outcome: OutcomeBuilder) -> None:
-        """Keep how long the player took for a flip."""
-        if self._times is not None:
-            self._times.flip(FlipInMove.FIRST if flip.matched is None else FlipInMove.SECOND, outcome.at_ms)
-            outcome.effect(do.StopTimer(Timer.HESITATION))
-
     def _watch_hesitation(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
-        """Help a player who hesitates; one who moves the pointer does not, and one who is away is not there."""
-        times = self._times
-        if times is None or self._given is not None:
-            return
-        match event:
-            case happened.TimerExpired(timer=Timer.HESITATION):
-                self._help_hesitation(times, outcome)
-            case happened.UserActivity(ago_ms=ago_ms) if times.has_waited(FlipInMove.coming(self.game), outcome.at_ms):
-                still_ms = times.rule.still_ms - ago_ms
-                if still_ms > 0:
-                    outcome.effect(do.StartTimer(Timer.HESITATION, still_ms))
-                else:
-                    outcome.effect(do.StopTimer(Timer.HESITATION))
-                    self._help_hesitation(times, outcome)
-            case happened.TimerExpired(timer=Timer.IDLE) | happened.PauseRequested():
-                times.spoil()
-                outcome.effect(do.StopTimer(Timer.HESITATION))
-
-    def _help_hesitation(self, times: PlayerTimes, outcome: OutcomeBuilder) -> None:
         """Give a hint to a player who hesitates."""
-        wait = times.wait(FlipInMove.coming(self.game), outcome.at_ms)
-        if self._guide is None or wait is None:
+        watch, guide = self._hesitation, self._guide
+        wait = watch.wait_to_help(event, self.game, outcome) if watch is not None and self._given is None else None
+        if watch is None or guide is None or wait is None:
             return
-        times.count_offer()
-        hint = self._guide.assistant.offer(self.game, times.rule.action)
+        hint = guide.assistant.offer(self.game, watch.action)
         outcome.emit(
             happened.HesitationNoticed(
                 at_ms=outcome.at_ms,
@@ -430,7 +401,7 @@ class GameStage(StageHandler):
                 action=hint.action,
             )
         )
-        self._give(hint.action, hint, self._guide.sentences, outcome)
+        self._give(hint.action, hint, guide.sentences, outcome)
 
     def _choose_help(self, outcome: OutcomeBuilder) -> tuple[ActionSpec, Hint | None]:
         """Return the action for the coming flip, and its hint if it points to a card."""
