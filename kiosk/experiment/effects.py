@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from enum import Enum
 
-from kiosk.experiment.events import EmbodimentName, SessionEvent, TextSize, Timer
+from kiosk.experiment.embodiment_name import EmbodimentName
+from kiosk.experiment.events import SessionEvent, TextSize, Timer
 from kiosk.experiment.information import ConsentPage, Page
 from kiosk.experiment.items import Response
 from kiosk.experiment.outcomes import NotRecordedReason

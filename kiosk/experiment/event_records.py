@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from kiosk import UserInputError
 from kiosk.assistance.policy import ActionSpec, GateDecision, MoveOutcome, Phase, find_action
-from kiosk.experiment.events import EmbodimentName, Event
+from kiosk.experiment.embodiment_name import EmbodimentName
+from kiosk.experiment.events import Event
 from kiosk.experiment.items import NOT_APPLICABLE, NotApplicable, Response
 from kiosk.experiment.plain_reading import by_name, plain_reader, read_position, read_texts
 from kiosk.game import Position

@@ -7,12 +7,12 @@ from dataclasses import replace
 from typing import TypeVar
 
 from kiosk.experiment.dealt_boards import OF_BOARDS, BoardsReader, DealtBoard
+from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import (
     AssistanceDecided,
     CardFlipped,
     ConsentGiven,
     EmbodimentChanged,
-    EmbodimentName,
     Event,
     GameFinished,
     InputDevice,

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from enum import Enum
 
+from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import (
     BoardUnlocked,
     CardFlipped,
     EmbodimentChanged,
-    EmbodimentName,
     Event,
     HintCue,
     HintGiven,

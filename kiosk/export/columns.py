@@ -11,7 +11,8 @@ from typing import Any, Generic, TypeVar
 
 from kiosk.assistance.policy import FlipInMove, GateDecision
 from kiosk.config import KNOWN_CONDITIONS, ConditionConfig, Settings
-from kiosk.experiment.events import EmbodimentKind, Event, SessionEvent, WorldEvent
+from kiosk.experiment.embodiment_name import EmbodimentKind
+from kiosk.experiment.events import Event, SessionEvent, WorldEvent
 from kiosk.experiment.labels import fold_name, read_as
 from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.extensions import ExtensionGroup, installed

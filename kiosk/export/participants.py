@@ -7,9 +7,9 @@ from collections.abc import Callable
 from functools import lru_cache
 from itertools import chain
 
+from kiosk.experiment.embodiment_name import EmbodimentKind
 from kiosk.experiment.events import (
     HOURS_IN_A_BAND,
-    EmbodimentKind,
     FallbackReason,
     InputDevice,
     PracticeEnd,

@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields
 from functools import cached_property
 
 from kiosk.experiment.condition import AllocationSlot
-from kiosk.experiment.events import EmbodimentName
+from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.item_responses import ItemResponse
 from kiosk.experiment.projections import Measures, ScaleScore, item_responses, measure_game
 from kiosk.experiment.session_state import SessionState

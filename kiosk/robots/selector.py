@@ -7,7 +7,8 @@ from collections.abc import Callable, Mapping
 from typing import Protocol
 
 from kiosk.config import RobotConfig as RobotSettings
-from kiosk.experiment.events import EmbodimentName, FallbackReason
+from kiosk.experiment.embodiment_name import EmbodimentName
+from kiosk.experiment.events import FallbackReason
 from kiosk.robots.adapter import AsyncRobotAdapter
 from kiosk.robots.embodiment import Embodiment, Health, MutableSpeech, SpeechListener
 

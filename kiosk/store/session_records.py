@@ -19,8 +19,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from kiosk import UserInputError
+from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.event_records import from_fields
-from kiosk.experiment.events import EmbodimentName, Event, SessionEnded, StageEntered
+from kiosk.experiment.events import Event, SessionEnded, StageEntered
 from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent
 from kiosk.experiment.information import PUBLISHING
 from kiosk.experiment.outcomes import SessionKind, Stage, Status

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from kiosk.experiment.condition import AllocationSlot, Condition, condition_of_return
-from kiosk.experiment.events import EmbodimentName
+from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.experimenter import AuditEvent
 from kiosk.experiment.outcomes import AllocationSource, SessionKind
 from kiosk.experiment.session_config import StudyConfig

@@ -15,6 +15,7 @@ from kiosk import StorageError
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Outcome
+from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import Event, InputDevice, SessionSetup, Timer, WorldEvent
 from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.transitions import InvalidTransition
@@ -196,7 +197,7 @@ class SessionRunner:
         for event in past:
             session.handle(event)
         body = self._renderer.body_name
-        resumed = happened.SessionResumed(at_ms=past[-1].at_ms, embodiment=body or happened.EmbodimentName.AVATAR)
+        resumed = happened.SessionResumed(at_ms=past[-1].at_ms, embodiment=body or EmbodimentName.AVATAR)
         session.check(resumed)
         record = SessionRecording.resumed(self._recorder, provenance, number)
         if not noted():

@@ -14,7 +14,8 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import CONDITIONS, Condition
 from kiosk.experiment.effects import BoardWait, Outcome
-from kiosk.experiment.events import EmbodimentName, Timer, WorldEvent
+from kiosk.experiment.embodiment_name import EmbodimentName
+from kiosk.experiment.events import Timer, WorldEvent
 from kiosk.experiment.items import TextPage
 from kiosk.experiment.outcomes import RecordingState, Stage, Status
 from kiosk.experiment.session import Session

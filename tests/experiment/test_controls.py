@@ -7,6 +7,7 @@ import pytest
 from kiosk.assistance.policy import ActionSpec
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
+from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import TextSize, Timer
 from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.session_state import SessionState, language_before_flip
@@ -137,7 +138,7 @@ def test_what_a_visitor_chose_outlasts_a_cut() -> None:
     driver = driven_to(Stage.INTRODUCTION)
     speak_italian(driver)
     driver.send(happened.TextSizeSelected(at_ms=driver.now, size=TextSize.LARGE))
-    outcome = driver.send(happened.SessionResumed(at_ms=driver.now, embodiment=happened.EmbodimentName.AVATAR))
+    outcome = driver.send(happened.SessionResumed(at_ms=driver.now, embodiment=EmbodimentName.AVATAR))
     assert {do.SetLanguage("it"), do.SetTextSize(TextSize.LARGE), do.OfferBack(offered=True)} <= {
         effect for effect in outcome.effects if isinstance(effect, do.SetLanguage | do.SetTextSize | do.OfferBack)
     }

@@ -9,7 +9,8 @@ from kiosk.config import Game
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.events import EmbodimentName, Timer
+from kiosk.experiment.embodiment_name import EmbodimentName
+from kiosk.experiment.events import Timer
 from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.session_state import SessionState
 from kiosk.experiment.transitions import InvalidTransition

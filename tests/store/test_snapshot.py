@@ -9,7 +9,8 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import EmbodimentName, Event
+from kiosk.experiment.embodiment_name import EmbodimentName
+from kiosk.experiment.events import Event
 from kiosk.experiment.experimenter import AuditEvent
 from kiosk.experiment.outcomes import SessionKind, Stage, Status
 from kiosk.store.recorder import Provenance, Recorder

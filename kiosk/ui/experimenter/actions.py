@@ -13,7 +13,7 @@ from kiosk import StorageError, UserInputError
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import EmbodimentName
+from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.experimenter import Action, ActionEffect, AuditEvent, DeviationReason, condition_cycle, permission
 from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.transitions import InvalidTransition

@@ -8,7 +8,8 @@ from datetime import datetime
 
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment.alarms import Alarm
-from kiosk.experiment.events import EmbodimentName, PauseEnded
+from kiosk.experiment.embodiment_name import EmbodimentName
+from kiosk.experiment.events import PauseEnded
 from kiosk.experiment.experimenter import Action, ActionEffect, AuditEvent, permission, shortcuts
 from kiosk.experiment.outcomes import Stage
 from kiosk.store.snapshot import DashboardSnapshot

@@ -7,7 +7,8 @@ from dataclasses import replace
 import pytest
 
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import EmbodimentName, Event, InputDevice
+from kiosk.experiment.embodiment_name import EmbodimentName
+from kiosk.experiment.events import Event, InputDevice
 from kiosk.experiment.intervals import Interval
 from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.session_state import SessionState, StageVisit

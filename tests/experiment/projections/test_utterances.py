@@ -11,7 +11,8 @@ from kiosk.assistance.policy import ActionSpec
 from kiosk.config import Game
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import EmbodimentName, Event, Timer
+from kiosk.experiment.embodiment_name import EmbodimentName
+from kiosk.experiment.events import Event, Timer
 from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.projections import SpeechCounts, count_speech
 from kiosk.experiment.session_state import SessionState

@@ -11,7 +11,7 @@ from PySide6.QtGui import QGuiApplication, QKeyEvent
 from kiosk.config import STAGES, Keys
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import EmbodimentName
+from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.experimenter import Action, ActionEffect, Authorisation, permission
 from kiosk.experiment.outcomes import Stage
 from kiosk.ui.experimenter.view_model import AuthorisationStep
