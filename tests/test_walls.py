@@ -1,4 +1,4 @@
-"""The direction of imports between packages, in one table."""
+"""The direction of imports between packages, in one table, and how large a module may be."""
 
 from __future__ import annotations
 
@@ -108,6 +108,13 @@ BROUGHT_ALONG = {"store": {"numpy"}, "training": {"sqlite3", "scipy"}}
 """The same in one package only: sqlite_utils looks for numpy, numba for scipy and for coverage, which keeps a
 database."""
 
+MOST_LINES = 500
+"""How many lines a file of Python or QML may have."""
+LONGER = {"experiment/events.py": "one small class for each kind of event, and all are imported by one name"}
+"""The files that have more, each with the reason."""
+DEEPEST = 3
+"""How many names the longest name of a package has, such as kiosk.ui.screens."""
+
 
 def modules(package: Path) -> Iterator[tuple[str, str, Path]]:
     """Every module of the package: its full name, its part, and its file."""
@@ -168,6 +175,23 @@ def breaches(package: Path) -> list[str]:
             elif part not in OUTSIDE.get(name.split(".")[0], {part}):
                 found.append(f"{module}:{line}: {name.split('.')[0]} does not belong in {part}")
     return found
+
+
+def oversized(package: Path) -> list[str]:
+    """Return every file that is too long, every reason without one, and every package that is too deep, in words."""
+    files = {file.relative_to(package).as_posix(): file for end in ("py", "qml") for file in package.rglob(f"*.{end}")}
+    lengths = {name: len(file.read_text("utf-8").splitlines()) for name, file in files.items()}
+    long = {name: lines for name, lines in lengths.items() if lines > MOST_LINES}
+    depths = {name: len(Path(name).parts) for name in files if Path(name).name == "__init__.py"}
+    return [
+        *(
+            f"{name} has {lines} lines: move a subject of it to another file"
+            for name, lines in sorted(long.items())
+            if name not in LONGER
+        ),
+        *(f"{name} is not too long any more: take it out of LONGER" for name in LONGER if name not in long),
+        *(f"{name} is {depth} packages deep" for name, depth in sorted(depths.items()) if depth > DEEPEST),
+    ]
 
 
 LOADER = """
@@ -266,6 +290,10 @@ def test_the_parts_import_each_other_in_one_direction() -> None:
     assert "analysis" not in PACKAGES["training"]
 
 
+def test_no_module_is_too_long_and_no_package_too_deep() -> None:
+    assert oversized(PACKAGE) == []
+
+
 def test_tests_of_packages_without_windows_import_no_qt() -> None:
     tests = Path(__file__).parent
     for part in ("game", "assistance", "experiment", "study", "store", "export", "training"):
@@ -342,3 +370,24 @@ def test_an_import_planted_below_all_is_found(tmp_path: Path) -> None:
         "kiosk may not import game (kiosk.game)",
         "places may not import game (kiosk.game)",
     ]
+
+
+@pytest.mark.parametrize(
+    ("name", "lines", "cry"),
+    [
+        ("game.py", MOST_LINES + 1, "game.py has 501 lines"),
+        ("ui/qml/Main.qml", MOST_LINES + 1, "ui/qml/Main.qml has 501 lines"),
+        ("ui/screens/shapes/__init__.py", 0, "ui/screens/shapes/__init__.py is 4 packages deep"),
+        ("experiment/events.py", MOST_LINES, "experiment/events.py is not too long any more"),
+    ],
+)
+def test_a_long_file_a_deep_package_and_a_reason_that_is_gone_are_found(
+    tmp_path: Path, name: str, lines: int, cry: str
+) -> None:
+    sizes = {"game.py": MOST_LINES, "ui/screens/__init__.py": 1, **dict.fromkeys(LONGER, MOST_LINES + 1)}
+    for each, size in {**sizes, name: lines}.items():
+        file = tmp_path / each
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text("\n" * size)
+    (found,) = oversized(tmp_path)
+    assert found.startswith(cry)
