@@ -28,7 +28,7 @@ from kiosk.store import maintenance as copies
 from kiosk.store import merge as merging
 from kiosk.store import verify as checking
 from kiosk.store import withdrawal as withdrawing
-from kiosk.store.copies import CopyKind, known_copies, note_copy
+from kiosk.store.copies import CopyKind, KnownCopy, copies_to_see_to, note_copy
 from kiosk.store.database import FILE as DATABASE
 from kiosk.store.database import in_use
 from kiosk.store.schema import check_readable
@@ -198,7 +198,8 @@ def withdraw_command(code: str | None, session: int | None, data: Path, *, yes: 
         click.echo(
             f"Participant {going.participant}, {_sessions(going)}, begun {begun} (UTC): {going.events} events "
             f"will be deleted for ever, and the copies in the data folder ({going.backups}) replaced by a fresh one. "
-            "Copies that are kept elsewhere, and folders that this one was merged into, are not touched.",
+            "Copies that are kept elsewhere, folders that this one was merged into, and those that it was merged from "
+            "are not touched.",
             err=True,
         )
         if not confirm("Delete them?"):
@@ -208,16 +209,30 @@ def withdraw_command(code: str | None, session: int | None, data: Path, *, yes: 
     told = f"All of participant {gone.participant} is deleted."
     if gone.cut_off:
         told = f"The withdrawal of participant {gone.participant}, which had been cut off, is finished."
-    others = known_copies(data)
+    others = list(copies_to_see_to(data, withdrawing.codes_withdrawn(data, gone)))
     if as_json:
-        rows = [{"kind": each.kind.value, "place": str(each.place), "made_at": each.made_at} for each in others]
+        rows = [
+            {"kind": each.kind.value, "place": str(each.place), "made_at": each.made_at, "sessions": sessions}
+            for each, sessions in others
+        ]
         click.echo(json.dumps(gone.to_json() | {"copies_elsewhere": rows}))
         return
     click.echo(told)
     if others:
-        click.echo("These were made of this folder and may still hold them; see to each of them:", err=True)
-    for each in others:
-        click.echo(f"  {one_line(f'{each.kind.value} of {each.made_at[:10]}: {each.place}')}", err=True)
+        click.echo("These hold them, or may hold them; see to each of them:", err=True)
+    for each, sessions in others:
+        # The date of a source folder would be that of the merge.
+        of = "" if each.kind is CopyKind.SOURCE else f" of {each.made_at[:10]}"
+        click.echo(f"  {one_line(f'{each.kind.value}{of}: {each.place}{_way_out(each, sessions)}')}", err=True)
+
+
+def _way_out(copy: KnownCopy, sessions: list[int]) -> str:
+    """Return the command that deletes people in a data folder that holds these sessions of them."""
+    if copy.kind not in {CopyKind.MERGE, CopyKind.SOURCE}:
+        return ""
+    # One session is enough: all visits of a participant go.
+    who = f"--session {sessions[0]}" if sessions else "CODE"
+    return f": recollect withdraw {who} --data {copy.place}"
 
 
 class FolderAndSite(click.ParamType[tuple[Path, str]]):
@@ -264,6 +279,7 @@ def merge_command(folders: tuple[Path, ...], out: Path, sites: tuple[tuple[Path,
         sessions = merging.merge(folders, out, tell, sites)
     for folder in folders:
         note_copy(folder, CopyKind.MERGE, out)
+        note_copy(out, CopyKind.SOURCE, folder)
     studies = merging.studies_in(folders)
     if as_json:
         named = [asdict(each) | {"folder": str(each.folder)} for each in studies]

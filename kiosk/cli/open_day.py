@@ -28,6 +28,7 @@ from kiosk.config import Settings
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.preflight import WHAT, CheckResult, Severity
 from kiosk.store import drives, maintenance
+from kiosk.store.copies import CopyKind, note_copy
 from kiosk.store.database import has_database, in_use
 from kiosk.store.participants import checked_site
 
@@ -178,4 +179,5 @@ def _carried(settings: Settings, data: Path, to: str) -> Step:
         carried = drives.carry(data, drives.destination(to), settings.experimenter.backups)
     except (StorageError, UserInputError) as failure:
         return Step("copy", ok=False, found=str(failure))
+    note_copy(data, CopyKind.BACKUP, carried.file)
     return Step("copy", ok=True, found=f"{carried.file}, {carried.bytes:,} bytes, read back alike")

@@ -1,4 +1,4 @@
-"""Where copies, merged folders and data sets of a data folder went, so that a withdrawal can name them."""
+"""Where the data of a folder also lie: its copies, merged folders, data sets and source folders."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import json
 import logging
 import os
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from enum import Enum
@@ -13,7 +14,9 @@ from pathlib import Path
 
 from kiosk.files import parse_json, read_bytes, sync_folder
 from kiosk.store.connecting import PRIVATE, give_to_owner_of_folder, make_private
+from kiosk.store.database import BACKUPS
 from kiosk.store.database import FILE as DATABASE
+from kiosk.store.maintenance import list_backups
 from kiosk.store.tombstones import sessions_in
 
 FILE = "recollect.copies"
@@ -22,16 +25,18 @@ _log = logging.getLogger(__name__)
 
 
 class CopyKind(Enum):
-    """What was made of a data folder."""
+    """What was made of a data folder, or what it was made of."""
 
     BACKUP = "backup"
     MERGE = "merged folder"
     EXPORT = "data set"
+    SOURCE = "source folder"
+    """What a merged folder was merged from."""
 
 
 @dataclass(frozen=True)
 class KnownCopy:
-    """Something that may hold people of a data folder, where it was made, and when (UTC)."""
+    """Something that may hold people of a data folder, where it lies, and when it was noted (UTC)."""
 
     kind: CopyKind
     place: Path
@@ -69,6 +74,39 @@ def known_copies(folder: Path) -> list[KnownCopy]:
     return [copy for copy in found.values() if copy.place.exists() or not copy.place.parent.exists()]
 
 
+def copies_to_see_to(folder: Path, withdrawn: frozenset[bytes]) -> Iterator[tuple[KnownCopy, list[int]]]:
+    """Yield the known copies that may hold people who withdrew, and their sessions there.
+
+    A database that can be read and holds none of them is left out; of one that cannot be read there are no sessions.
+    """
+    for copy in known_copies(folder):
+        sessions = _sessions(copy, withdrawn) if withdrawn else None
+        if sessions is None or sessions:
+            yield copy, sessions or []
+
+
+@dataclass(frozen=True)
+class Backup:
+    """A copy of the database of a data folder, and when it was made."""
+
+    file: Path
+    at: datetime
+
+
+def backups_of(folder: Path) -> list[Backup]:
+    """Return the copies of a database, oldest first: those in its folder, and those that were carried elsewhere."""
+    found = []
+    for file in list_backups(folder / BACKUPS):
+        # A newer copy may just have taken its place.
+        with suppress(OSError):
+            found.append(Backup(file, datetime.fromtimestamp(file.stat().st_mtime, UTC)))
+    for copy in known_copies(folder):
+        if copy.kind is CopyKind.BACKUP and copy.place.parent != folder.absolute() / BACKUPS:
+            with suppress(ValueError):
+                found.append(Backup(copy.place, datetime.fromisoformat(copy.made_at).astimezone(UTC)))
+    return sorted(found, key=lambda each: each.at)
+
+
 @dataclass(frozen=True)
 class Elsewhere:
     """What was found in the copies of a folder that are elsewhere."""
@@ -91,14 +129,23 @@ def look_elsewhere(folder: Path, hashes: frozenset[bytes], last_day: str) -> Els
             if copy.made_at[: len(last_day)] <= last_day:
                 unseen.append((copy, f"a data set names no codes; the last withdrawal was on {last_day}"))
             continue
-        database = copy.place / DATABASE if copy.kind is CopyKind.MERGE else copy.place
-        sessions = sessions_in(database, hashes)
+        sessions = _sessions(copy, hashes)
         if sessions:
             holding.append((copy, sessions))
         elif sessions is None:
-            why = "it cannot be read, or is encrypted" if database.exists() else "it is not there, or not plugged in"
+            is_there = _database(copy).exists()
+            why = "it cannot be read, or is encrypted" if is_there else "it is not there, or not plugged in"
             unseen.append((copy, why))
     return Elsewhere(tuple(holding), tuple(unseen))
+
+
+def _database(copy: KnownCopy) -> Path:
+    return copy.place if copy.kind is CopyKind.BACKUP else copy.place / DATABASE
+
+
+def _sessions(copy: KnownCopy, withdrawn: frozenset[bytes]) -> list[int] | None:
+    """Return the sessions that a copy holds of people who withdrew; None if that cannot be seen."""
+    return None if copy.kind is CopyKind.EXPORT else sessions_in(_database(copy), withdrawn)
 
 
 def _read(file: Path) -> Iterator[KnownCopy]:

@@ -101,6 +101,13 @@ def withdraw(folder: Path, who: str | int) -> Withdrawal:
     return found
 
 
+def codes_withdrawn(folder: Path, gone: Withdrawal) -> frozenset[bytes]:
+    """Return the hashes of the codes of a participant who was withdrawn."""
+    with closing(open_for_reading(folder)) as connection:
+        rows = connection.execute("SELECT session, hash FROM withdrawn_code").fetchall()
+    return frozenset(found for session, found in rows if session in {gone.session, *gone.sessions})
+
+
 def note_intention(connection: sqlite3.Connection, folder: Path, *sessions: int) -> None:
     """Put down that sessions are withdrawn, before anything of them is deleted; raises StorageError."""
     codes = [

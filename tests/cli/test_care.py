@@ -225,6 +225,50 @@ def test_a_withdrawal_names_the_copies_that_are_elsewhere(day: Path, tmp_path: P
     assert (day / COPIES).stat().st_mode & 0o777 == 0o600
 
 
+def test_a_withdrawal_from_a_merged_folder_names_the_folder_that_the_person_came_from(
+    day: Path, tmp_path: Path
+) -> None:
+    other, whole = tmp_path / "other", tmp_path / "all"
+    a_day(other, PEOPLE, "GI", seed=2)
+    assert run("merge", day, other, "--out", whole).exit_code == 0
+    ((session, number),) = rows(
+        whole,
+        "SELECT session, number FROM participant JOIN session ON id = session"
+        " WHERE session.site = 'GI' AND participant.kind = 0 LIMIT 1",
+    )
+    told = run("withdraw", "--session", session, "--data", whole, "--yes")
+    assert told.exit_code == 0
+    assert str(day) not in told.stderr
+    # The session has another number there.
+    ((there,),) = rows(other, f"SELECT session FROM participant WHERE number = {number} AND kind = 0")  # noqa: S608
+    assert f"source folder: {other}: recollect withdraw --session {there} --data {other}" in told.stderr
+    assert f"the source folder {other}" in said_wrong(whole)
+    assert run("withdraw", "--session", there, "--data", other, "--yes").exit_code == 0
+    assert run("verify", "--data", whole).exit_code == 0
+
+
+def said_wrong(folder: Path) -> list[str]:
+    """Return where verify finds something."""
+    return [found["where"] for found in json.loads(run("verify", "--data", folder, "--json").stdout)["results"]]
+
+
+def test_a_source_folder_that_cannot_be_looked_into_is_named_with_the_code_to_give(day: Path, tmp_path: Path) -> None:
+    whole = tmp_path / "all"
+    assert run("merge", day, "--out", whole).exit_code == 0
+    (day / FILE).write_bytes(b"torn")
+    told = run("withdraw", "--session", 1, "--data", whole, "--yes").stderr
+    assert f"source folder: {day}: recollect withdraw CODE --data {day}" in told
+
+
+def test_a_copy_from_before_the_visit_is_not_named(day: Path, tmp_path: Path) -> None:
+    copy = said("backup", "--data", day, "--to", tmp_path / "stick")["backup"]
+    with Recorder(day) as recorder:
+        begun = recorder.begin(PEOPLE, BEGUN)
+    told = said("withdraw", "--session", begun.session, "--data", day, "--yes")["copies_elsewhere"]
+    assert told == []
+    assert said("withdraw", "--session", 1, "--data", day, "--yes")["copies_elsewhere"][0]["place"] == copy
+
+
 # merge
 
 

@@ -16,6 +16,7 @@ from kiosk.cli.devices import RobotTrial
 from kiosk.cli.main import recollect
 from kiosk.experiment.outcomes import SessionKind
 from kiosk.preflight import WHAT, Check, CheckResult
+from kiosk.store.copies import known_copies
 from kiosk.store.maintenance import FOLDER, list_backups
 from kiosk.store.recorder import Provenance, Recorder
 from tests.samples import WITH_PIN, plan
@@ -127,6 +128,8 @@ def test_the_data_are_copied_also_to_another_place(booth: Open, tmp_path: Path) 
     result = booth("--yes", "--json", "--to", str(tmp_path / "stick"))
     assert (result.exit_code, steps(result)["backup"], steps(result)["copy"]) == (0, True, True)
     assert len(list_backups(tmp_path / "data" / FOLDER)) == len(list_backups(tmp_path / "stick")) == 1
+    # A withdrawal can name it.
+    assert [copy.place for copy in known_copies(tmp_path / "data")] == list_backups(tmp_path / "stick")
 
 
 def test_a_kiosk_that_is_open_already_is_left_alone(booth: Open, tmp_path: Path) -> None:
