@@ -13,7 +13,7 @@ from PySide6.QtCore import QObject, QTimer
 from PySide6.QtQuick import QQuickWindow
 
 from kiosk.assistance.wording import Catalogue
-from kiosk.ui.screens.pages import draw_first_code
+from kiosk.ui.screens.debrief import draw_first_code
 
 MODULES = (
     *("attr", "cattrs", "kiosk.experiment.page_stages", "kiosk.experiment.questionnaire_stage"),

@@ -14,7 +14,7 @@ from pytestqt.qtbot import QtBot
 from kiosk.config import ASSETS
 from kiosk.experiment.information import Page
 from kiosk.game import Position
-from kiosk.ui.screens.pages import QUIET_MODULES
+from kiosk.ui.screens.debrief import QUIET_MODULES
 from tests.ui.conftest import Booth
 from tests.ui.looking import items, lies_in
 

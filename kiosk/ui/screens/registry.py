@@ -17,15 +17,9 @@ from kiosk.ui.experimenter.view_model import ExperimenterScreen
 from kiosk.ui.screens.attract import AttractScreen
 from kiosk.ui.screens.avatar import AvatarScreen
 from kiosk.ui.screens.board import BoardScreen
-from kiosk.ui.screens.pages import (
-    AboutScreen,
-    AgeScreen,
-    ConsentScreen,
-    DebriefScreen,
-    IntroductionScreen,
-    ResultScreen,
-    ThanksScreen,
-)
+from kiosk.ui.screens.consent import AgeScreen, ConsentScreen
+from kiosk.ui.screens.debrief import DebriefScreen
+from kiosk.ui.screens.pages import AboutScreen, IntroductionScreen, ResultScreen, ThanksScreen
 from kiosk.ui.screens.questionnaire import FormScreen
 from kiosk.ui.screens.returning import ReturnScreen
 from kiosk.ui.screens.shell import KioskScreen
