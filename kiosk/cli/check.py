@@ -39,7 +39,6 @@ from kiosk.robots.embodiment import Health
 from kiosk.robots.registry import check_robot, load_driver
 from kiosk.store import checks as store_checks
 from kiosk.store.database import in_use
-from kiosk.store.maintenance import FOLDER
 from kiosk.store.participants import checked_site
 from kiosk.study import checks
 from kiosk.study.loader import read_study
@@ -321,7 +320,7 @@ def _kept(booth: CheckTargets) -> Iterator[Check]:
     yield Check(store_checks.WRITING, partial(store_checks.write_speed_check, folder), late=Severity.ERROR)
     yield Check(store_checks.DATABASE, partial(store_checks.database_check, folder, busy=busy), late=Severity.ERROR)
     yield Check(store_checks.SESSIONS, partial(store_checks.sessions_check, folder, busy=busy))
-    yield Check(store_checks.COPY, partial(store_checks.backup_check, folder, folder / FOLDER, now))
+    yield Check(store_checks.COPY, partial(store_checks.backup_check, folder, now))
     if booth.settings is not None and booth.study is not None:
         kind = kind_of(booth.settings)
         yield Check(

@@ -24,8 +24,9 @@ from kiosk.experiment.session_config import SessionConfig
 from kiosk.preflight import CheckResult
 from kiosk.store.allocation import AllocationList, AllocationLists
 from kiosk.store.connecting import primary_code, reason
+from kiosk.store.copies import backups_of
 from kiosk.store.database import FILE, Foreign, Newer, make_durable, open_as_it_is, open_for_reading
-from kiosk.store.maintenance import REFUSE_MIB, WARN_MIB, SpaceLevel, free_space, list_backups
+from kiosk.store.maintenance import REFUSE_MIB, WARN_MIB, SpaceLevel, free_space
 from kiosk.store.migrations import SCHEMA
 from kiosk.store.participants import checked_site
 from kiosk.store.snapshot import last_written_ms
@@ -135,17 +136,17 @@ def sessions_check(folder: Path, *, busy: bool) -> Iterator[CheckResult]:
     return _reading(folder, look)
 
 
-def backup_check(folder: Path, into: Path, now: datetime) -> Iterator[CheckResult]:
-    """How old the newest copy is."""
+def backup_check(folder: Path, now: datetime) -> Iterator[CheckResult]:
+    """How old the newest copy is, in the data folder or elsewhere."""
     written = newest_write(folder)
     if written is None:
         yield CheckResult.ok(COPY, "nothing is written yet")
         return
-    made = max((file.stat().st_mtime for file in list_backups(into)), default=None) if into.is_dir() else None
-    if made is None:
-        yield CheckResult.warning(COPY, f"there is no copy in {into}", "recollect backup")
+    made = backups_of(folder)
+    if not made:
+        yield CheckResult.warning(COPY, "there is no copy", "recollect backup")
         return
-    at = datetime.fromtimestamp(made, now.tzinfo)
+    at = made[-1].at.astimezone(now.tzinfo)
     words = f"the newest copy is of {at:%Y-%m-%d %H:%M}"
     if now - at > OLD and written > at:
         yield CheckResult.warning(COPY, f"{words}, and more was written since", "recollect backup")

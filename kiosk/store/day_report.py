@@ -15,6 +15,7 @@ from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent
 from kiosk.experiment.outcomes import SessionKind, Stage, Status
 from kiosk.experiment.projections import count_speech
 from kiosk.experiment.session_state import SessionState
+from kiosk.store.copies import backups_of
 from kiosk.store.session_records import SessionRecord, open_records
 from kiosk.units import MS_PER_SECOND
 
@@ -170,7 +171,7 @@ class DayReport:
     def _about_booth(self) -> Iterator[str]:
         copies = self.noted(AuditEvent.BACKUP_MADE, AuditEvent.BACKUP_FAILED)
         if self.sessions and not any(note.kind is AuditEvent.BACKUP_MADE for note in copies):
-            yield "No copy was made by the kiosk this day: make one with 'recollect backup --to stick'."
+            yield "No copy was made this day: make one with 'recollect backup --to stick'."
         elif copies and copies[-1].kind is AuditEvent.BACKUP_FAILED:
             yield f"The last copy failed at {copies[-1].at:%H:%M}."
         room = self.noted(AuditEvent.DISK_SPACE_CHANGED)
@@ -204,7 +205,12 @@ def read_day_report(folder: Path, day: date, kinds: frozenset[SessionKind], zone
         for wall_ms, kind, payload in rows
         if kind in known
     )
-    return DayReport(day, sessions, notes)
+    by_commands = (
+        DayNote(copy.at.astimezone(zone), AuditEvent.BACKUP_MADE, {"file": str(copy.file)})
+        for copy in backups_of(folder)
+        if since <= copy.at < until and copy.file.name not in {note.payload.get("file") for note in notes}
+    )
+    return DayReport(day, sessions, tuple(sorted((*notes, *by_commands), key=lambda note: note.at)))
 
 
 def _midnight(day: date, zone: tzinfo | None) -> datetime:

@@ -20,7 +20,10 @@ from kiosk.experiment.outcomes import SessionKind, Stage, Status
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import PsychDs
+from kiosk.store.copies import CopyKind, note_copy
 from kiosk.store.day_report import DayNote, DayReport, DaySession, Happening, StageSpan, quantile, read_day_report
+from kiosk.store.drives import carry
+from kiosk.store.maintenance import FOLDER, back_up
 from kiosk.store.recorder import Recorder
 from tests.export.conftest import rows_of
 from tests.export.visitors import store, visitor, visitors
@@ -157,6 +160,21 @@ def test_the_stored_sessions_of_a_day_are_read_and_no_other_days(data: Path) -> 
     assert [each.kind for each in report.notes] == [AuditEvent.BACKUP_MADE, AuditEvent.CONDITION_CHOSEN]
     yesterday = read_day_report(data, today - timedelta(days=1), PEOPLE)
     assert (yesterday.sessions, yesterday.notes) == ((), ())
+
+
+def test_a_copy_that_a_command_made_is_one_of_the_day(tmp_path: Path) -> None:
+    data, today = tmp_path / "data", datetime.now().astimezone().date()
+    store(data, visitors(1))
+    assert [caution for caution in read_day_report(data, today, PEOPLE).cautions() if "copy" in caution]
+    note_copy(data, CopyKind.BACKUP, carry(data, tmp_path / "stick", keep=1).file)
+    own = back_up(data, data / FOLDER)
+    report = read_day_report(data, today, PEOPLE)
+    assert not [caution for caution in report.cautions() if "copy" in caution]
+    assert len(report.noted(AuditEvent.BACKUP_MADE)) == 2
+    # The kiosk notes its own, and each is listed once.
+    with Recorder(data) as recorder:
+        recorder.add_audit_event(AuditEvent.BACKUP_MADE.value, {"file": own.name}, None)
+    assert len(read_day_report(data, today, PEOPLE).noted(AuditEvent.BACKUP_MADE)) == 2
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,8 @@ from typing import Protocol
 from kiosk import StorageError, UserInputError
 from kiosk.experiment.experimenter import AuditEvent
 from kiosk.lazy_dataclass import dataclass
-from kiosk.store.maintenance import FOLDER, FreeSpace, SpaceLevel, back_up, free_space, list_backups
+from kiosk.store.copies import Backup, backups_of
+from kiosk.store.maintenance import FOLDER, FreeSpace, SpaceLevel, back_up, free_space
 from kiosk.ui.event_loop import Clock, Executor
 from kiosk.ui.experimenter.authorisation import Write
 from kiosk.units import MS_PER_MINUTE, MS_PER_SECOND
@@ -43,7 +44,8 @@ class MaintenanceTasks:
 
     copy: Callable[[], Path]
     """Raises UserInputError or StorageError."""
-    last_copy: Callable[[], Path | None]
+    last_copy: Callable[[], Backup | None]
+    """The newest copy, in the data folder or carried elsewhere."""
     free_space: Callable[[], FreeSpace]
     """Raises UserInputError."""
 
@@ -53,7 +55,7 @@ class MaintenanceTasks:
         into = folder / FOLDER
         return cls(
             partial(back_up, folder, into, keep),
-            lambda: next(reversed(list_backups(into)), None) if into.is_dir() else None,
+            lambda: next(reversed(backups_of(folder)), None),
             partial(free_space, folder, min(keep, ceil(MINUTES_PER_HOUR / every_minutes))),
         )
 
@@ -109,8 +111,9 @@ class MaintenanceScheduler:
 
     def begin(self) -> None:
         """See how things are, and go on seeing to them."""
-        self._work(self._last_copy, self._found_copy)
-        self._beat()
+        self._work(self._care.last_copy, self._found_first_copy)
+        self.check_due()
+        self._clock.after(BEAT_MS, self._beat)
 
     def check_due(self) -> None:
         """Look at the disk now, and make a copy if one is due."""
@@ -133,6 +136,8 @@ class MaintenanceScheduler:
             self._work(self._copy, self._have_copied)
 
     def _beat(self) -> None:
+        # A command may have made one, such as 'recollect backup --to stick'.
+        self._work(self._care.last_copy, self._found_copy)
         self.check_due()
         self._clock.after(BEAT_MS, self._beat)
 
@@ -152,22 +157,22 @@ class MaintenanceScheduler:
             self._write(AuditEvent.BACKUP_FAILED, {"why": copied.why})
         self.changed()
 
-    def _last_copy(self) -> BackupOutcome | None:
-        file = self._care.last_copy()
-        if file is None:
-            return None
-        try:
-            return BackupOutcome(int(file.stat().st_mtime * MS_PER_SECOND), file)
-        except OSError as failure:
-            # A newer copy may just have taken its place.
-            _log.info("the last copy cannot be looked at: %s", failure)
-            return None
-
-    def _found_copy(self, found: BackupOutcome | None) -> None:
+    def _found_first_copy(self, found: Backup | None) -> None:
         if found is not None and self.last_backup is None:
-            self.last_backup = found
-            self._copied_at -= max(0, self._now_ms() - found.at_ms)
+            self._copied_at -= max(0, self._now_ms() - _ms(found))
+        self._found_copy(found)
+
+    def _found_copy(self, found: Backup | None) -> None:
+        if found is not None and self._is_news(found):
+            self.last_backup = BackupOutcome(_ms(found), found.file)
             self.changed()
+
+    def _is_news(self, found: Backup) -> bool:
+        before = self.last_backup
+        if before is None:
+            return True
+        # A failure of the kiosk's own copies stays until one succeeds.
+        return before.file not in {None, found.file} and before.at_ms < _ms(found)
 
     def _look_at_room(self) -> FreeSpace | None:
         try:
@@ -190,3 +195,7 @@ class MaintenanceScheduler:
             self._write(AuditEvent.DISK_SPACE_CHANGED, {"level": level.value, "free_mib": free_mib})
             self._shut(shut=level is SpaceLevel.REFUSE)
         self.changed()
+
+
+def _ms(copy: Backup) -> int:
+    return int(copy.at.timestamp() * MS_PER_SECOND)

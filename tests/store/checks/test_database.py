@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import os
+import shutil
 import sqlite3
 from contextlib import closing
 from datetime import UTC, datetime, timedelta
@@ -14,7 +16,10 @@ from kiosk.config import Allocation
 from kiosk.experiment.outcomes import SessionKind
 from kiosk.preflight import Severity
 from kiosk.store.checks import OLD, SLACK, allocation_check, backup_check, clock_check, database_check, sessions_check
+from kiosk.store.copies import FILE as COPIES
+from kiosk.store.copies import CopyKind, backups_of, note_copy
 from kiosk.store.database import FILE, in_use
+from kiosk.store.drives import carry
 from kiosk.store.maintenance import FOLDER, back_up
 from kiosk.store.migrations import SCHEMA
 from kiosk.store.recorder import Provenance, Recorder
@@ -32,7 +37,7 @@ def test_a_folder_without_a_database_is_well_and_gets_none(tmp_path: Path) -> No
     now = datetime.now(UTC)
     found = [
         *database_check(tmp_path, busy=False),
-        *backup_check(tmp_path, tmp_path / FOLDER, now),
+        *backup_check(tmp_path, now),
         *allocation_check(tmp_path, "", DECLARED),
     ]
     assert {each.severity for each in found} == {Severity.OK}
@@ -124,7 +129,7 @@ def test_a_database_that_cannot_be_gone_on_with_is_bad_and_left_as_it_is(
 
 def test_people_without_a_copy_are_told_of(folder: Path, provenance: Provenance) -> None:
     a_day(folder, provenance)
-    (found,) = backup_check(folder, folder / FOLDER, datetime.now(UTC))
+    (found,) = backup_check(folder, datetime.now(UTC))
     assert (found.severity, found.remedy) == (Severity.WARNING, "recollect backup")
 
 
@@ -134,12 +139,41 @@ def test_a_copy_of_today_is_well_and_an_old_one_only_if_nothing_came_since(
     a_day(folder, provenance)
     made = back_up(folder, folder / FOLDER)
     now = datetime.now(UTC)
-    (fresh,) = backup_check(folder, folder / FOLDER, now)
-    (rested,) = backup_check(folder, folder / FOLDER, now + 3 * OLD)
+    (fresh,) = backup_check(folder, now)
+    (rested,) = backup_check(folder, now + 3 * OLD)
     long_ago = (now - 2 * OLD).timestamp()
     os.utime(made, (long_ago, long_ago))
-    (old,) = backup_check(folder, folder / FOLDER, now)
+    (old,) = backup_check(folder, now)
     assert [each.severity for each in (fresh, rested, old)] == [Severity.OK, Severity.OK, Severity.WARNING]
+
+
+def test_a_copy_that_was_carried_away_counts_also_where_its_drive_is_unplugged(
+    folder: Path, provenance: Provenance, tmp_path: Path
+) -> None:
+    a_day(folder, provenance)
+    stick = tmp_path / "mounts" / "stick"
+    copy = carry(folder, stick, keep=1).file
+    note_copy(folder, CopyKind.BACKUP, copy)
+    now = datetime.now(UTC)
+    (there,) = backup_check(folder, now)
+    shutil.rmtree(stick)
+    (unplugged,) = backup_check(folder, now)
+    stick.mkdir()
+    (deleted,) = backup_check(folder, now)
+    assert [each.severity for each in (there, unplugged, deleted)] == [Severity.OK, Severity.OK, Severity.WARNING]
+
+
+def test_the_newest_copy_counts_wherever_it_is(folder: Path, provenance: Provenance, tmp_path: Path) -> None:
+    a_day(folder, provenance)
+    made = back_up(folder, folder / FOLDER)
+    long_ago = (datetime.now(UTC) - 2 * OLD).timestamp()
+    os.utime(made, (long_ago, long_ago))
+    copy = carry(folder, tmp_path / "stick", keep=1).file
+    note_copy(folder, CopyKind.BACKUP, copy)
+    # What was noted by hand, and wrongly, counts for nothing.
+    with (folder / COPIES).open("a", encoding="utf-8") as notes:
+        notes.write(json.dumps({"made_at": "soon", "kind": "backup", "place": str(tmp_path)}) + "\n")
+    assert [each.file for each in backups_of(folder)] == [made, copy]
 
 
 # Places

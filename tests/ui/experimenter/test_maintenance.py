@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 import logging
-import os
-from collections.abc import Callable, Mapping
-from functools import partial
+from collections.abc import Mapping
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any, TypeVar
 
 import pytest
+from click.testing import CliRunner
 
 from kiosk import StorageError, UserInputError
+from kiosk.cli.main import recollect
 from kiosk.experiment import events as happened
 from kiosk.experiment.experimenter import AuditEvent
 from kiosk.experiment.outcomes import Stage
+from kiosk.store.copies import Backup
 from kiosk.store.maintenance import FOLDER, FreeSpace
-from kiosk.ui.event_loop import Executor, InlineExecutor, VirtualClock
-from kiosk.ui.experimenter.maintenance import BEAT_MS, MaintenanceScheduler, MaintenanceTasks
-from kiosk.units import MS_PER_MINUTE
+from kiosk.ui.event_loop import InlineExecutor, VirtualClock
+from kiosk.ui.experimenter.maintenance import BEAT_MS, BackupOutcome, MaintenanceScheduler, MaintenanceTasks
+from kiosk.units import MS_PER_SECOND
 from tests.ui.experimenter.conftest import Desk, MakeDesk
 
 EVERY = 10
@@ -29,27 +31,11 @@ Result = TypeVar("Result")
 PLENTY, LITTLE, NONE = FreeSpace(5000), FreeSpace(300), FreeSpace(10)
 
 
-class Later:
-    """Does at once what it is given, and lands it only when asked to."""
-
-    def __init__(self) -> None:
-        self._landings: list[Callable[[], None]] = []
-
-    def __call__(self, job: Callable[[], Result], then: Callable[[Result], None]) -> None:
-        """Do ``job`` now."""
-        self._landings.append(partial(then, job()))
-
-    def land(self) -> None:
-        """Land everything that was done."""
-        landings, self._landings = self._landings, []
-        for landing in landings:
-            landing()
-
-
 class Place:
     """A booth that is taken care of; the test says what becomes of copies, and how much room there is."""
 
-    def __init__(self, last: Path | None = None, work: Executor | None = None) -> None:
+    def __init__(self, last: Backup | None = None) -> None:
+        self.last = last
         self.clock = VirtualClock()
         self.room: FreeSpace | UserInputError = PLENTY
         self.failure: Exception | None = None
@@ -57,13 +43,13 @@ class Place:
         self.copies = 0
         self.notes: list[tuple[AuditEvent, Mapping[str, Any]]] = []
         self.shut: list[bool] = []
-        care = MaintenanceTasks(self.copy, lambda: last, self.look)
+        care = MaintenanceTasks(self.copy, lambda: self.last, self.look)
         self.upkeep = MaintenanceScheduler(
             care,
             EVERY,
             self.clock,
             self.wall_ms,
-            work or InlineExecutor(),
+            InlineExecutor(),
             self.write,
             lambda: self.resting,
             self.let_begin,
@@ -72,6 +58,11 @@ class Place:
     def wall_ms(self) -> int:
         """Return the wall's clock."""
         return 1_700_000_000_000 + self.clock.now_ms()
+
+    def copied(self, name: str, minutes_ago: int = 0) -> Backup:
+        """Return a copy that was made some minutes ago."""
+        at = datetime.fromtimestamp(self.wall_ms() / MS_PER_SECOND, UTC) - timedelta(minutes=minutes_ago)
+        return Backup(Path(name), at)
 
     def copy(self) -> Path:
         """Make a copy, or fail."""
@@ -119,43 +110,44 @@ def test_a_copy_is_made_as_often_as_the_study_wants_it() -> None:
     assert place.notes[0] == (AuditEvent.BACKUP_MADE, {"file": "recollect-1.db"})
 
 
-def test_a_copy_from_before_the_start_counts(tmp_path: Path) -> None:
-    last = tmp_path / "recollect-0.db"
-    last.touch()
-    place = Place(last)
+def test_a_copy_from_before_the_start_counts() -> None:
+    place = Place()
+    place.last = place.copied("recollect-0.db")
     place.upkeep.begin()
-    assert place.upkeep.last_backup is not None
-    assert place.upkeep.last_backup.file == last
+    assert place.upkeep.last_backup == BackupOutcome(place.wall_ms(), Path("recollect-0.db"))
 
 
-def test_an_old_copy_makes_the_next_one_due_at_once(tmp_path: Path) -> None:
-    last = tmp_path / "recollect-0.db"
-    last.touch()
-    place = Place(last)
-    long_ago = place.wall_ms() / 1000 - 2 * EVERY * MS_PER_MINUTE / 1000
-    os.utime(last, (long_ago, long_ago))
+def test_an_old_copy_makes_the_next_one_due_at_once() -> None:
+    place = Place()
+    place.last = place.copied("recollect-0.db", 2 * EVERY)
     place.upkeep.begin()
     assert place.copies == 1
 
 
-def test_a_copy_that_goes_away_while_it_is_looked_for_is_none(tmp_path: Path) -> None:
-    place = Place(tmp_path / "recollect-0.db")
+def test_a_copy_that_a_command_made_meanwhile_counts_and_puts_off_none_of_the_kiosks_own() -> None:
+    place = Place()
     place.upkeep.begin()
-    assert place.upkeep.last_backup is None
+    place.wait(EVERY - 2)
+    place.last = place.copied("stick.db")
+    made_ms = place.wall_ms()
+    place.wait(1)
+    assert place.upkeep.last_backup == BackupOutcome(made_ms, Path("stick.db"))
+    place.wait(1)
+    assert place.copies == 1
+    # The older one does not take its place again.
+    place.wait(1)
+    assert place.upkeep.last_backup.file == Path("recollect-1.db")
+
+
+def test_a_copy_that_a_command_made_does_not_hide_that_the_kiosks_own_fail() -> None:
+    place = Place()
+    place.failure = StorageError("no room")
+    place.upkeep.begin()
     place.wait(EVERY)
-    assert place.copies == 1
-
-
-def test_a_copy_that_goes_away_once_it_was_looked_at_is_not_looked_at_again(tmp_path: Path) -> None:
-    last = tmp_path / "recollect-0.db"
-    last.touch()
-    work = Later()
-    place = Place(last, work)
-    place.upkeep.begin()
-    last.unlink()
-    work.land()
+    place.last = place.copied("stick.db")
+    place.wait(2)
     assert place.upkeep.last_backup is not None
-    assert place.upkeep.last_backup.file == last
+    assert place.upkeep.last_backup.why == "no room"
 
 
 def test_no_copy_is_made_during_a_session_and_it_is_made_up_for_right_after() -> None:
@@ -228,6 +220,15 @@ def test_in_the_kiosk_no_room_ends_no_session_but_the_next_one_cannot_begin(make
     assert assigner.screen == "pause"
     assigner.app.runner.set_closed(shut=False)
     assert assigner.stage is Stage.ATTRACT
+
+
+def test_in_the_kiosk_a_copy_that_was_carried_away_counts(assigner: Desk, tmp_path: Path) -> None:
+    stick = tmp_path / "stick"
+    assert CliRunner().invoke(recollect, ["backup", "--data", str(assigner.data), "--to", str(stick)]).exit_code == 0
+    care = MaintenanceTasks.of(assigner.data, 1, EVERY)
+    found = care.last_copy()
+    assert found is not None
+    assert found.file.parent == stick
 
 
 def test_in_the_kiosk_a_copy_asked_for_in_the_panel_is_there(assigner: Desk) -> None:
