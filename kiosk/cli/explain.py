@@ -3,204 +3,31 @@
 from __future__ import annotations
 
 import json
-import reprlib
 import sys
-from base64 import b64encode
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from html import escape
 from pathlib import Path
-from random import Random
-from textwrap import wrap
-from typing import Annotated, Any, Literal
+from typing import Any
 
 import click
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
-from pydantic_core import ErrorDetails
 
 from kiosk import UserInputError
 from kiosk.assistance.assistant import Explanation, game_after
 from kiosk.assistance.hesitation import Wait
-from kiosk.assistance.hint_sentences import ReasonedSentences, Wording
 from kiosk.assistance.memory_model import MemoryEstimate
-from kiosk.assistance.mentaliser import Hint, HintReason, Mentaliser, TargetRule
-from kiosk.assistance.policy import PRAISE, ActionSpec, FlipInMove, MoveOutcome, QTable, find_action, said_once
-from kiosk.cli.options import json_option, read_catalogue, sessions_data_option, shipped_languages
+from kiosk.assistance.mentaliser import Hint
+from kiosk.assistance.policy import PRAISE, MoveOutcome
+from kiosk.cli.decision_boards import LEGEND, Moment, board_lines, board_picture
+from kiosk.cli.decision_case import read_case
+from kiosk.cli.options import json_option, sessions_data_option
+from kiosk.cli.reasons import reasons_table
 from kiosk.cli.terminal import one_line, tell_caution, tell_line
-from kiosk.config import ASSETS, AssistanceConfig, Game, pictures_in
-from kiosk.experiment.condition import Condition
-from kiosk.experiment.replay import DecisionContext
-from kiosk.files import parse_json, write_file
-from kiosk.game import Board, Concentration, Position
+from kiosk.files import write_file
+from kiosk.game import Board
 from kiosk.store.queries import DecisionExplainer, open_repository
 from kiosk.units import MS_PER_SECOND
 
-SHAPE = Game()
-"""The board of a case is the study's."""
-CASE_CARDS = SHAPE.rows * SHAPE.columns
-
-
-class DecisionCase(BaseModel):
-    """The keys of a case file; those with a value here may be left out."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
-
-    board: list[Annotated[str, Field(min_length=1)]]
-    flips: list[Annotated[int, Field(ge=0, lt=CASE_CARDS)]]
-    last_action: str
-    condition: str
-    policy: str
-    language: str
-    action: str | None = None
-    seed: int = 0
-    target_rule: Literal["most_flipped", "most_recent"] = AssistanceConfig().target_rule
-
-    def moment(self) -> DecisionContext:
-        """Return what the case describes; raise UserInputError or ValueError if it cannot be."""
-        board, condition = Board(SHAPE.rows, SHAPE.columns, tuple(self.board)), Condition.from_name(self.condition)
-        return DecisionContext(
-            board=board,
-            flips=tuple(map(board.position, self.flips)),
-            last=_action(self.last_action),
-            condition=condition,
-            cell=condition.known,
-            rule=TargetRule(self.target_rule),
-            policy=QTable.named(self.policy),
-            catalogue=read_catalogue(self.language),
-            override=None if self.action is None else _action(self.action),
-            seed=self.seed,
-        )
-
-
-def read_case(path: Path) -> DecisionCase:
-    """Read a case file (JSON); raises UserInputError with one sentence that names the key."""
-    try:
-        return DecisionCase.model_validate(parse_json(path.read_bytes(), object_pairs_hook=said_once))
-    except OSError as error:
-        raise UserInputError(f"the case {path} cannot be read: {error.strerror}") from error
-    except ValidationError as error:
-        raise UserInputError(f"the case {path}: {_sentence(error.errors()[0])}") from error
-    except ValueError as error:
-        raise UserInputError(f"the case {path} is not JSON: {error}") from error
-
-
-def _action(name: str) -> ActionSpec:
-    return find_action(name)
-
-
-def _sentence(error: ErrorDetails) -> str:
-    """Return what pydantic found wrong, as a person would say it; places in a list are counted from 1."""
-    key = ", number ".join(str(part + 1) if isinstance(part, int) else part for part in error["loc"])
-    match error["type"]:
-        case "missing":
-            return f"the key {key!r} is missing"
-        case "extra_forbidden":
-            return f"there is no key {key!r}"
-        case _:
-            what = error["msg"].removeprefix("Input ")
-            return f"{key or 'it'} {what}, but it is {reprlib.repr(error['input'])}"
-
-
-CARDS = (
-    *("owl", "cat", "frog", "duck", "bear", "fish"),
-    *("rabbit", "turtle", "hedgehog", "elephant", "ladybird", "butterfly"),
-)
-BOARD = Board(4, 6, CARDS * 2)
-"""Every card's first copy lies in rows 1 and 2, its second copy in the same place in rows 3 and 4."""
-
-EXAMPLES = (
-    "",
-    "owl cat",
-    "owl cat, owl' frog",
-    "owl cat, owl frog",
-    "owl cat, owl frog, owl' duck",
-    "owl cat, owl frog, owl' duck, owl' bear",
-    "owl",
-    "owl' cat, owl",
-    "owl cat, owl",
-    "owl cat, owl' frog, owl",
-    "owl' cat, owl' frog, owl",
-    "owl cat, owl' frog, owl' duck, owl",
-)
-"""Moves before a hint, by card; a dash marks its second copy. The hint is about the owls, or about new cards."""
-
-
-@dataclass(frozen=True)
-class ReasonExample:
-    """What a history comes to: the card that is coming, the reason, and one sentence per language."""
-
-    moves: str
-    card: FlipInMove
-    reason: HintReason
-    target: int
-    other: int
-    sentences: tuple[str, ...]
-
-
-def reason_example(moves: str) -> ReasonExample:
-    """Play these moves and ask for a hint about a row."""
-    game = game_after(BOARD, map(_place, moves.replace(",", "").split()))
-    mentaliser = Mentaliser(TargetRule.MOST_FLIPPED, Random(0))
-    owls = [position for position in mentaliser.candidates(game) if BOARD.card(position) == CARDS[0]]
-    target = mentaliser.pointing_at(owls[-1], game)
-    hint = Hint.coming(ActionSpec.SUG_ROW, target, game)
-    return ReasonExample(moves, hint.card, target.reason, target.seen, target.mate_seen, _sentences(hint))
-
-
-def reasons_table() -> str:
-    """All examples as a table in Markdown."""
-    head = ("card", "reason", "turned up: target, other", "example: moves so far", *shipped_languages())
-    rows = [head, ("---",) * len(head), *(_row(reason_example(moves)) for moves in EXAMPLES)]
-    return "".join(f"| {' | '.join(row)} |\n" for row in rows)
-
-
-def _row(shown: ReasonExample) -> tuple[str, ...]:
-    moves = shown.moves or "none"
-    return (shown.card.value, shown.reason.value, f"{shown.target}, {shown.other}", moves, *shown.sentences)
-
-
-def _sentences(hint: Hint) -> tuple[str, ...]:
-    wordings = (Wording(read_catalogue(language), Random(0)) for language in shipped_languages())
-    return tuple(ReasonedSentences(wording).all_wordings(hint)[0] for wording in wordings)
-
-
-def _place(card: str) -> Position:
-    location = CARDS.index(card.removesuffix("'"))
-    return BOARD.position(location + len(CARDS) if card.endswith("'") else location)
-
-
-_OUTCOMES = {
-    MoveOutcome.F_CORRECT: "a first card is coming, and the last move did not fail",
-    MoveOutcome.F_WRONG: "a first card is coming, and the last move was no match",
-    MoveOutcome.S_CORRECT: "a second card is coming, and the last move did not fail",
-    MoveOutcome.S_WRONG: "a second card is coming, and the last move was no match",
-}
-_LABEL = 11
 DIFFERS = 1
 """The exit code if a decision comes out otherwise today than it was recorded."""
-
-
-@dataclass(frozen=True)
-class Moment:
-    """The game before a flip (from 1), and the decision about it; ``differs`` says why there is none."""
-
-    flip: int
-    game: Concentration
-    explanation: Explanation | None
-    differs: str = ""
-
-    def to_json(self) -> dict[str, Any]:
-        """Return it as JSON values; cards go by their locations, from 0."""
-        board, opened = self.game.board, self.game.first_card
-        told = {} if self.explanation is None else self.explanation.to_json()
-        return {
-            "flip": self.flip,
-            "open": None if opened is None else board.location(opened),
-            "found": sorted(map(board.location, self.game.found)),
-            "turned": {board.location(place): n for place in board if (n := self.game.history.count(place))},
-            **told,
-            **({"differs": self.differs} if self.differs else {}),
-        }
 
 
 @click.command()
@@ -292,7 +119,7 @@ def _one(moment: Moment) -> Iterator[str]:
     if moment.explanation is not None:
         yield from _lines(moment.explanation)
         yield ""
-    yield from _board_lines(moment)
+    yield from board_lines(moment)
     yield ""
     yield LEGEND
 
@@ -303,116 +130,20 @@ def _all(moments: Sequence[Moment]) -> Iterator[str]:
         move, which = divmod(moment.flip - 1, 2)
         yield ""
         yield f"flip {moment.flip} (move {move + 1}, {'second' if which else 'first'} card)"
-        yield from _board_lines(moment)
+        yield from board_lines(moment)
         if moment.explanation is None:
             yield _line("differs", moment.differs)
         else:
             yield from _lines(moment.explanation, brief=True)
 
 
-LEGEND = "\N{MIDDLE DOT} never turned   name turned before   [name] open   (name) found   >name< where the hint points"
-
-
-def _board_lines(moment: Moment) -> Iterator[str]:
-    """Draw the board as text, a row a line."""
-    game, target = moment.game, _target(moment)
-    width = max(map(len, game.board.cards)) + 2
-    for row in range(game.board.rows):
-        places = (Position(row, column) for column in range(game.board.columns))
-        yield "  " + " ".join(_cell(game, place, target).ljust(width) for place in places).rstrip()
-
-
-def _cell(game: Concentration, place: Position, target: Position | None) -> str:
-    card, seen = game.board.card(place), game.history.count(place) > 0
-    if place in game.found:
-        return f"({card})"
-    if place == game.first_card:
-        return f"[{card}]"
-    if place == target:
-        return f">{card}<" if seen else ">\N{MIDDLE DOT}<"
-    return f" {card}" if seen else " \N{MIDDLE DOT}"
-
-
-def _target(moment: Moment) -> Position | None:
-    hint = moment.explanation.decision.hint if moment.explanation else None
-    return hint.target.position if hint else None
-
-
-_SIDE, _GAP, _HEAD, _CAPTION_LINES, _CAPTION = 46, 4, 26, 3, 18
-_ACROSS = 3
-"""How many boards are drawn side by side."""
-
-
-def board_picture(moments: Sequence[Moment]) -> str:
-    """Return an SVG of the board at each moment, with its flip, action and sentence."""
-    board = moments[0].game.board
-    width = board.columns * (_SIDE + _GAP) + 24
-    height = board.rows * (_SIDE + _GAP) + _HEAD + _CAPTION_LINES * _CAPTION + 24
-    across = min(_ACROSS, len(moments))
-    down = -(-len(moments) // across)
-    pictures = _card_pictures(frozenset(board.cards))
-    images = (
-        f'<image id="{card}" width="{_SIDE - 8}" height="{_SIDE - 8}" href="{picture}"/>'
-        for card, picture in pictures.items()
-    )
-    tiles = (
-        f'<g transform="translate({number % across * width + 12} {number // across * height + 12})">'
-        f"{''.join(_tile(moment, frozenset(pictures), width))}</g>"
-        for number, moment in enumerate(moments)
-    )
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{across * width}" height="{down * height}"'
-        ' font-family="sans-serif" font-size="13">\n<rect width="100%" height="100%" fill="#fff"/>\n'
-        f"<defs>{''.join(images)}</defs>\n" + "\n".join(tiles) + "\n</svg>\n"
-    )
-
-
-def _tile(moment: Moment, pictured: frozenset[str], width: int) -> Iterator[str]:
-    game, target, explanation = moment.game, _target(moment), moment.explanation
-    action = explanation.decision.action.label if explanation else "comes out otherwise today"
-    yield f'<text y="14" font-weight="bold">flip {moment.flip}: {escape(action)}</text>'
-    for place in game.board:
-        x, y = place.column * (_SIDE + _GAP), place.row * (_SIDE + _GAP) + _HEAD
-        card, found, opened = game.board.card(place), place in game.found, place == game.first_card
-        fill = "#dff0e4" if found else "#fff7d6" if opened else "#eceff2"
-        edge = ("#c05500", 4) if place == target else ("#1f5f6b", 2) if opened else ("#b8c0c8", 1)
-        yield (
-            f'<g transform="translate({x} {y})"><rect width="{_SIDE}" height="{_SIDE}" rx="6" fill="{fill}"'
-            f' stroke="{edge[0]}" stroke-width="{edge[1]}"/>'
-        )
-        if game.history.count(place):
-            shade = 1 if opened else 0.75 if found else 0.4
-            if card in pictured:
-                yield f'<use href="#{card}" x="4" y="4" opacity="{shade}"/>'
-            else:
-                middle = f'x="{_SIDE / 2}" y="{_SIDE / 2 + 4}" text-anchor="middle" font-size="10"'
-                yield f"<text {middle}>{escape(card)}</text>"
-        yield "</g>"
-    below = game.board.rows * (_SIDE + _GAP) + _HEAD
-    said = _caption(explanation) if explanation else moment.differs
-    for number, line in enumerate(
-        wrap(said, width // 7, max_lines=_CAPTION_LINES, placeholder=" \N{HORIZONTAL ELLIPSIS}")
-    ):
-        yield f'<text y="{below + 16 + number * _CAPTION}">{escape(line)}</text>'
-
-
-def _caption(explanation: Explanation) -> str:
-    """Return what was said, or why nothing was."""
-    verdict = explanation.decision.gate_decision
-    return explanation.spoken or ("the table came to no help" if verdict.is_open else verdict.value)
-
-
-def _card_pictures(cards: frozenset[str]) -> dict[str, str]:
-    """Return the pictures of the shipped decks that these cards have, as data addresses."""
-    shipped = {
-        card: file
-        for deck in sorted((ASSETS / "cards").iterdir())
-        for card, file in pictures_in(deck).items()
-        if card in cards and file.suffix == ".svg"
-    }
-    return {
-        card: f"data:image/svg+xml;base64,{b64encode(file.read_bytes()).decode()}" for card, file in shipped.items()
-    }
+_OUTCOMES = {
+    MoveOutcome.F_CORRECT: "a first card is coming, and the last move did not fail",
+    MoveOutcome.F_WRONG: "a first card is coming, and the last move was no match",
+    MoveOutcome.S_CORRECT: "a second card is coming, and the last move did not fail",
+    MoveOutcome.S_WRONG: "a second card is coming, and the last move was no match",
+}
+_LABEL = 11
 
 
 def _lines(explanation: Explanation, *, brief: bool = False) -> Iterator[str]:
