@@ -18,16 +18,21 @@ from kiosk import UserInputError
 from kiosk.config import ConfigModel
 from kiosk.experiment.condition import Condition
 
+SCALES = {
+    "SOC": "socially competent",
+    "AC": "adapts to human cognitions",
+    "PC": "predicts human cognitions",
+    "RC": "recognizes human cognitions",
+}
+"""The scales of the questionnaire social-intelligence, by the names that it gives them."""
+
 MEASURES = {
     "flips": "flips until the last pair is found",
     "completion_ms": "completion time without speech",
     "assistance_per_flip": "assistance per flip",
     "followed_rate": "share of hints that were followed",
     "first_led_to_match_rate": "share of first-card hints that led to a match",
-    "SOC_sum": "perceived social intelligence",
-    "AC_sum": "perceived competence of the assistant",
-    "PC_sum": "perceived social presence",
-    "RC_sum": "perceived reciprocity",
+    **{f"{scale}_sum": f"sum of {scale} ({name})" for scale, name in SCALES.items()},
 }
 """What a hypothesis can be about: columns of the exported participants, and what they are called."""
 

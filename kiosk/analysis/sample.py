@@ -23,7 +23,7 @@ from kiosk.analysis.data import (
     scale_items,
     scale_names,
 )
-from kiosk.analysis.plan import StudyPlan
+from kiosk.analysis.plan import SCALES, StudyPlan
 from kiosk.analysis.statistics import LEAST
 from kiosk.experiment.outcomes import AllocationSource
 
@@ -63,8 +63,6 @@ MEASURES = (
     Measure("first_led_to_match_rate", "First-card hints that matched", digits=2),
 )
 """The measures of the game; each scale of the questionnaires adds its sum."""
-
-SCALE_LABELS = {"SOC": "Social intelligence", "AC": "Competence", "PC": "Social presence", "RC": "Reciprocity"}
 
 
 @dataclass(frozen=True)
@@ -108,7 +106,8 @@ class Sample:
     @cached_property
     def _all(self) -> tuple[Measure, ...]:
         scales = [name.removesuffix("_sum") for name in self.measured if name.endswith("_sum")]
-        own = (Measure(f"{name}_sum", SCALE_LABELS.get(name, name), digits=1) for name in scales)
+        labels = {name: f"{name}, {SCALES[name]}" if name in SCALES else name for name in scales}
+        own = (Measure(f"{name}_sum", label, digits=1) for name, label in labels.items())
         return (*MEASURES, *own)
 
     @cached_property

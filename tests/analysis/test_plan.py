@@ -18,10 +18,12 @@ from scipy import stats
 from kiosk import UserInputError
 from kiosk.analysis import power
 from kiosk.analysis.data import load_study, scale_items
-from kiosk.analysis.plan import TEMPLATE, StudyPlan, bayes_factors, boundaries, nominal_levels
+from kiosk.analysis.plan import SCALES, TEMPLATE, StudyPlan, bayes_factors, boundaries, nominal_levels
 from kiosk.analysis.statistics import student_error, welch_error
 from kiosk.assistance.policy import QTable
 from kiosk.cli.main import recollect
+from kiosk.config import ASSETS
+from kiosk.experiment.questionnaire import Questionnaire
 from kiosk.export.layouts import file_of
 from kiosk.store.plans import frozen_plans
 from kiosk.store.verify import verify
@@ -107,6 +109,16 @@ def test_a_plan_that_cannot_be_meant_is_refused(plan: Path, old: str, new: str, 
     plan.write_text(TEMPLATE.replace(old, new))
     with pytest.raises(UserInputError, match=said):
         StudyPlan.read(plan)
+
+
+def test_scales_have_the_names_that_their_questionnaire_gives_them(plan: Path) -> None:
+    questionnaire = Questionnaire.read(ASSETS / "questionnaires" / "social-intelligence.toml")
+    named = " ".join(questionnaire.note.split())
+    assert set(SCALES) == set(questionnaire.scales)
+    for scale, name in SCALES.items():
+        assert f"{scale} {name}" in named
+    plan.write_text(TEMPLATE.replace("AC_sum", "PC_sum"))
+    assert "in sum of PC (predicts human cognitions)" in run("plan", "show", str(plan))
 
 
 def test_the_preregistration_names_every_hypothesis_and_look(plan: Path) -> None:
