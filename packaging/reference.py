@@ -16,7 +16,7 @@ from kiosk.cli.main import recollect
 from kiosk.config import Settings
 from kiosk.experiment import booth_status
 from kiosk.experiment.events import Event, SessionEvent, WorldEvent
-from kiosk.export.columns import codebook_markdown
+from kiosk.export.codebook import codebook_markdown
 from kiosk.export.records import StudyMaterials
 from kiosk.export.tables import all_tables
 from kiosk.extensions import ExtensionGroup, installed

@@ -18,7 +18,7 @@ import numpy.typing as npt
 
 from kiosk import UserInputError, why
 from kiosk.experiment.condition import Condition, in_design_order
-from kiosk.export.columns import CODEBOOK_VERSION
+from kiosk.export.codebook import CODEBOOK_VERSION
 from kiosk.export.layouts import PLANS, file_of, plan_file
 from kiosk.files import parse_json
 

@@ -20,7 +20,7 @@ from kiosk.analysis.data import COLUMNS, DESCRIPTION
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import ACTIONS, ActionSpec, QTable
 from kiosk.experiment.condition import Condition, target_rule
-from kiosk.export.columns import CODEBOOK_VERSION
+from kiosk.export.codebook import CODEBOOK_VERSION
 from kiosk.export.layouts import file_of
 from kiosk.export.new_files import new_folder
 from kiosk.training.simulated_players import SimulatedPlayer

@@ -10,7 +10,7 @@ from typing import Any
 
 from kiosk import UserInputError, __version__
 from kiosk.experiment.labels import fold_name, is_reserved
-from kiosk.export import columns, readme_text
+from kiosk.export import codebook, readme_text
 from kiosk.export.columns import AT, BOARD, FLIP, PARTICIPANT, ColumnKind, Table, TableShape, Variable, distinct
 from kiosk.export.flow import ParticipantFlow
 from kiosk.export.item_columns import EMPTY_MARKS, exported_items, item_variable
@@ -221,7 +221,7 @@ def _without(shape: TableShape) -> list[Variable]:
 
 
 def _joined(tables: Iterable[Table[SessionRecord, Any]]) -> list[Variable]:
-    return columns.variables(TableShape(table.name, "", (), tuple(_without(table.shape))) for table in tables)
+    return codebook.variables(TableShape(table.name, "", (), tuple(_without(table.shape))) for table in tables)
 
 
 def _described(variables: Iterable[Variable]) -> dict[str, Any]:
@@ -231,7 +231,7 @@ def _described(variables: Iterable[Variable]) -> dict[str, Any]:
         levels = {level.name: level.meaning or level.name for level in variable.levels}
         one = variable.kind is ColumnKind.TEXT
         several = f" Any of: {', '.join(levels)}." if levels and not one else ""
-        told[variable.name] = {"Description": columns.full_description(variable) + several}
+        told[variable.name] = {"Description": codebook.full_description(variable) + several}
         told[variable.name] |= {"Units": variable.unit} if variable.unit else {}
         told[variable.name] |= {"Levels": levels} if levels and one else {}
     return told

@@ -14,7 +14,7 @@ from pydantic import BaseModel
 
 from kiosk.config import Settings
 from kiosk.experiment.session_config import SessionConfig
-from kiosk.export import columns, readme_text
+from kiosk.export import codebook, readme_text
 from kiosk.export.columns import ExportOption
 from kiosk.export.flow import ParticipantFlow
 from kiosk.export.new_files import CsvFile, csv_texts, write_json, write_text
@@ -157,13 +157,13 @@ class PsychDs(Layout):
         flow = self.contents.tables.flow
         self._files[flow.name].write(flow.cells(flows))
         shapes, root = self.contents.tables.shapes, self.root
-        write_json(root / "dataset_description.json", self._described() | columns.variables_measured(shapes))
-        write_json(root / "data" / "file_metadata.json", columns.CONTEXT | {"encodingFormat": "text/csv"})
+        write_json(root / "dataset_description.json", self._described() | codebook.variables_measured(shapes))
+        write_json(root / "data" / "file_metadata.json", codebook.CONTEXT | {"encodingFormat": "text/csv"})
         for shape in shapes:
-            own = {"name": shape.name, "description": shape.about} | columns.variables_measured([shape])
-            write_json((root / file_of(shape.name)).with_suffix(".json"), columns.CONTEXT | own)
+            own = {"name": shape.name, "description": shape.about} | codebook.variables_measured([shape])
+            write_json((root / file_of(shape.name)).with_suffix(".json"), codebook.CONTEXT | own)
         files = {shape.name: file_of(shape.name) for shape in shapes}
-        write_text(root / "documentation" / "codebook.md", columns.codebook_markdown(shapes, files))
+        write_text(root / "documentation" / "codebook.md", codebook.codebook_markdown(shapes, files))
         write_text(
             root / "README.md", readme_text.dataset_readme(self.contents.study, shapes, files, self.contents.extras)
         )
@@ -182,12 +182,12 @@ class PsychDs(Layout):
 
     def _described(self) -> dict[str, object]:
         study = self.contents.study
-        return columns.CONTEXT | {
+        return codebook.CONTEXT | {
             "name": study.title,
             "description": readme_text.dataset_abstract(study, self.contents.extras),
             "keywords": list(readme_text.KEYWORDS),
             "inLanguage": list(study.languages),
-            "schemaVersion": columns.CODEBOOK_VERSION,
+            "schemaVersion": codebook.CODEBOOK_VERSION,
         }
 
 

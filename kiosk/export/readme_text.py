@@ -7,7 +7,8 @@ from collections.abc import Iterable, Mapping
 from kiosk import __version__
 from kiosk.experiment.condition import in_design_order
 from kiosk.experiment.information import PUBLISHING
-from kiosk.export.columns import MARKED, ExportOption, TableShape, as_written
+from kiosk.export.codebook import MARKED, as_written
+from kiosk.export.columns import ExportOption, TableShape
 from kiosk.export.records import StudyMaterials
 
 KEYWORDS = ("Concentration", "memory game", "human-robot interaction", "assistance", "Theory of Mind")

@@ -12,7 +12,7 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.analysis.data import COLUMNS, ExportedStudy, ExportTable, load_study, scale_items, scale_remarks
-from kiosk.export.columns import CODEBOOK_VERSION
+from kiosk.export.codebook import CODEBOOK_VERSION
 from kiosk.export.layouts import file_of
 
 PEOPLE = ("P0001", "P0002", "P0003")

@@ -16,7 +16,7 @@ import pytest
 from kiosk.analysis.compare import Comparison
 from kiosk.analysis.data import DESCRIPTION, load_study
 from kiosk.analysis.report import Report, describe, make_report
-from kiosk.export.columns import CODEBOOK_VERSION
+from kiosk.export.codebook import CODEBOOK_VERSION
 
 HERE = Path(__file__).parent / "r"
 R: Mapping[str, Any] = json.loads((HERE / "expected" / "report.json").read_text("utf-8"))

@@ -12,17 +12,8 @@ import pytest
 from kiosk.experiment.events import SessionEvent, WorldEvent
 from kiosk.experiment.outcomes import Status
 from kiosk.experiment.projections import Measures
-from kiosk.export.columns import (
-    SEPARATOR,
-    Column,
-    ColumnKind,
-    ExportOption,
-    TableShape,
-    Variable,
-    as_written,
-    enum_levels,
-    variables,
-)
+from kiosk.export.codebook import as_written, variables
+from kiosk.export.columns import SEPARATOR, Column, ColumnKind, ExportOption, TableShape, Variable, enum_levels
 from kiosk.export.person import MEASURED, MEASURES
 from kiosk.export.records import StudyMaterials
 from kiosk.export.tables import all_tables
