@@ -373,7 +373,7 @@ def test_cards_that_are_no_pair_are_framed_until_they_turn_back(still: App) -> N
     assert (framed(), rimmed()) == ([], [board.location(CAT[0])])
 
 
-def test_the_first_sentence_of_a_practice_goes_with_the_first_pair_and_can_be_heard_again(still: App) -> None:
+def test_the_first_sentence_of_a_practice_goes_with_the_first_card_and_can_be_heard_again(still: App) -> None:
     def said() -> list[str]:
         bubbles = (i for i in items(still.window.contentItem()) if lies_in(i, "Bubble"))
         return [i.property("text") for i in bubbles if i.property("text") and i.property("text") != "Memo"]
@@ -387,6 +387,9 @@ def test_the_first_sentence_of_a_practice_goes_with_the_first_pair_and_can_be_he
     still.screens.kiosk.show("practice")
     avatar.say("Let us practise first.")
     assert (said(), cheers()) == (["Let us practise first."], False)
+    board.reveal(Position(0, 0), "cat")
+    assert (said(), cheers()) == (["Now turn over a second card."], False)
+    board.reveal(Position(0, 1), "cat")
     board.mark_matched(GONE)
     assert (said(), cheers()) == (["A pair!"], True)
     still.screens.kiosk.sayAgain()
@@ -401,11 +404,21 @@ def test_what_to_do_stands_on_a_line_of_its_own_and_is_told_once(still: App) -> 
         shown = ((i.property("text"), i.property("font")) for i in bubbles if i.isVisible() and i.property("text"))
         return [(text, font.bold()) for text, font in shown if text != "Memo"]
 
+    def sizes() -> list[int]:
+        bubbles = (i for i in items(still.window.contentItem()) if lies_in(i, "Bubble"))
+        return [
+            i.property("font").pixelSize()
+            for i in bubbles
+            if i.isVisible() and i.property("text") not in {"", "Memo", None}
+        ]
+
     avatar = still.screens.avatar
     still.screens.board.deal(3, 4, 6, "animals")
     still.screens.kiosk.show("game")
     avatar.say("You have seen it. Try row 2.", "Try row 2.")
     assert parts() == [("You have seen it.", False), ("Try row\u00a02.", True)]
+    reason, place = sizes()
+    assert place > 1.1 * reason
     inside = (i for i in items(still.window.contentItem()) if lies_in(i, "Bubble") and not is_ignored(i))
     assert [text for _, text in map(described, inside) if "Try" in text] == ["You have seen it. Try row 2."]
     avatar.say("Try row 2.", "Try row 2.")

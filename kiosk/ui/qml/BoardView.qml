@@ -46,8 +46,10 @@ FocusScope {
     signal touchedSomething()
     // Every pair was found, and is in the tray.
     signal won()
-    // The first pair was found.
-    signal firstFound()
+    // The first card was turned.
+    signal firstTurned()
+    readonly property bool untouched: board.untouched
+    onUntouchedChanged: if (!untouched && board.pairs > 0) firstTurned()
 
     // Columns are counted from the left in every language, on the board and in what is said.
     LayoutMirroring.enabled: false
@@ -219,8 +221,6 @@ FocusScope {
             now.latest = [first, second]
             if (found === layout.pairs)
                 now.last = [first, second]
-            if (found === 1)
-                view.firstFound()
             joy.celebrate([layout.centre(first), layout.centre(second)], Qt.point(head.tray.x + goal.x, head.tray.y + goal.y),
                           Math.floor(layout.cell * layout.share), head.tray.card, picture)
         }

@@ -21,6 +21,8 @@ Item {
     readonly property real tail: (hasSpeaker ? 34 : 12) * Theme.unit
     readonly property bool tells: outcome !== "" && whole === outcomeOf
     readonly property real cheer: Theme.size(grows ? 64 : 52)
+    // How much larger the part that is set apart is: it is looked for while a card is sought.
+    readonly property real louder: 1.2
     // A few words in a wide bubble are large, too.
     readonly property bool short: grows && !calls && !cheered && !tells && end === "" && whole !== "" && briefly.advanceWidth <= words.width
     readonly property real tag: speaker === "" ? 0 : name.height - 0.3 * Theme.gap
@@ -72,7 +74,7 @@ Item {
     Measure {
         id: usualEnd
         text: ending.text
-        font { pixelSize: usual.font.pixelSize; bold: true }
+        font { pixelSize: Math.round(bubble.louder * usual.font.pixelSize); bold: true }
     }
     TextMetrics {
         id: briefly
@@ -88,7 +90,7 @@ Item {
     Measure {
         id: largeEnd
         text: bubble.grows ? ending.text : ""
-        font { pixelSize: Theme.size(38); bold: true }
+        font { pixelSize: Math.round(bubble.louder * Theme.size(38)); bold: true }
     }
     Rectangle {
         id: box
@@ -138,7 +140,7 @@ Item {
             anchors { left: words.left; right: words.right; top: words.top; topMargin: words.high + apart }
             // A number stays with the word before it.
             text: bubble.end.replace(/ (?=\d)/g, "\u00a0")
-            font { pixelSize: words.font.pixelSize; bold: true }
+            font { pixelSize: Math.round(bubble.louder * words.font.pixelSize); bold: true }
             color: Theme.sea
             horizontalAlignment: words.horizontalAlignment
             lineHeight: words.lineHeight

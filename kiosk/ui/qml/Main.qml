@@ -228,8 +228,8 @@ Window {
                 faceAt: layout.wide || !root.avatar.present ? 0 : helper.y + helper.faceTop - stage.y
                 told: prompt.tells
                 onWon: if (!root.board.practice) feast.begin()
-                // How a practice goes is clear by now.
-                onFirstFound: if (root.board.practice && !root.board.speaking) helper.fade()
+                // The sentence that begins a practice may still be spoken, but it is time to read how the move goes on.
+                onFirstTurned: if (root.board.practice && !root.board.speaking) helper.fade()
                 onVisibleChanged: if (!visible) helper.stopNoticing()
             }
         }
