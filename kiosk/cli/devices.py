@@ -107,7 +107,10 @@ def _pretend(port: int | None) -> None:
     except OSError as error:
         raise UserInputError(f"no Furhat can be pretended at port {port}: {error.strerror}") from error
     with robot, suppress(KeyboardInterrupt):
-        click.echo(f"A pretended Furhat listens at localhost, port {robot.port}. Ctrl+C ends it.")
+        click.echo(
+            f"A pretended Furhat listens at localhost, port {robot.port}. It takes as long to speak as a robot. "
+            "Ctrl+C ends it."
+        )
         while True:
             request = heard.get()
             words = ", ".join(f"{name}={value}" for name, value in request.parameters.items())

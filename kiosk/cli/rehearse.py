@@ -156,6 +156,8 @@ def rehearse(
     mode = _mode(speed, headless=headless)
     check_screen(mode.display)
     memories = _memories(people, seed, HESITATES if prepared.settings.assistance.hesitation_max else 0.0)
+    if _has_robot(prepared) and mode.pace is ClockMode.VIRTUAL and not as_json:
+        click.echo("A robot speaks in real time, so a session with one takes minutes, also with --headless.", err=True)
     if sessions > 1:
         visitors = draw_visitors(sessions, seed, prepared.languages)
         characters = tuple(replace(visitor, memory=next(memories)) for visitor in visitors)

@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
+from kiosk import UserInputError
 from kiosk.cli.composition import read_settings
 from kiosk.cli.devices import greet
 from kiosk.cli.main import recollect
@@ -159,6 +160,22 @@ def test_a_rehearsal_with_a_robot_tells_what_became_of_every_sentence(
     assert counted["requested"] == counted["finished"] + counted["shown_only"]
     assert counted["failed"] == changes
     assert played["longest_gap_ms"] > 0
+
+
+def test_a_rehearsal_with_a_robot_says_at_its_start_that_it_takes_minutes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def begin(*_: object, **__: object) -> None:
+        raise UserInputError("it began")
+
+    monkeypatch.setattr("kiosk.cli.rehearse.open_recorder", begin)
+    command = ["rehearse", "--headless", "--data", str(tmp_path)]
+    robot = ["--robot-host", "127.0.0.1"]
+    said = {
+        words: CliRunner().invoke(recollect, [*command, *words]).stderr
+        for words in (tuple(robot), (*robot, "--sessions", "2"), ("--json", *robot), ())
+    }
+    assert ["takes minutes" in each for each in said.values()] == [True, True, False, False]
 
 
 def test_a_rehearsal_with_a_robot_has_no_other_speed(tmp_path: Path) -> None:
