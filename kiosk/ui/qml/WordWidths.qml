@@ -1,6 +1,7 @@
-// How wide words are and how many lines they take, before they are laid out: the one place where a form measures words.
+// How wide words are and how many lines they take, before they are laid out: the one place where forms and the debrief
+// measure words.
 import QtQuick
-import ".."
+import "."
 
 QtObject {
     id: widths
