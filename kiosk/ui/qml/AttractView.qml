@@ -81,8 +81,8 @@ FocusScope {
             anchors { horizontalCenter: start.horizontalCenter; top: start.bottom; topMargin: 0.4 * Theme.gap }
             visible: view.several
             text: way.modelData.name
-            font.pixelSize: view.ample ? Theme.body : Theme.small
-            color: Theme.faintInk
+            font.pixelSize: Theme.textSize > 1.15 ? Theme.small : Theme.size(36)
+            color: Theme.ink
         }
     }
 
@@ -207,8 +207,8 @@ FocusScope {
             room: view.width - 4 * Theme.gap
             bottomPadding: Theme.gap
             text: view.attract.promise
-            font.pixelSize: Theme.size(view.ample ? 38 : 34)
-            color: Theme.faintInk
+            font.pixelSize: Theme.size(Theme.textSize > 1.15 ? 34 : 42)
+            color: Theme.ink
         }
         Grid {
             id: starts

@@ -124,7 +124,7 @@ PageFrame {
             y: view.abreast ? board.y + board.height + 0.6 * Theme.gap : (scene.height - height) / 2
             width: scene.width - 2 * (view.abreast ? Math.max(scene.pad, 32 * Theme.unit) : scene.pad) - (view.abreast ? 0 : scene.numbers + 3 * scene.small + scene.apart)
             text: scene.text
-            font { pixelSize: view.abreast ? Theme.reading : Theme.textSize > 1.15 ? Theme.body : Theme.size(38); bold: true }
+            font { pixelSize: view.abreast ? Theme.size(Theme.textSize > 1.15 ? 29 : 34) : Theme.textSize > 1.15 ? Theme.body : Theme.size(38); bold: true }
             horizontalAlignment: view.abreast ? Text.AlignHCenter : Text.AlignLeft
             color: Theme.ink
         }
