@@ -17,9 +17,8 @@ from kiosk.assistance.memory_model import MemoryEstimate
 from kiosk.assistance.mentaliser import Hint
 from kiosk.assistance.policy import PRAISE, MoveOutcome
 from kiosk.cli.decision_boards import LEGEND, Moment, board_lines, board_picture
-from kiosk.cli.decision_case import read_case
+from kiosk.cli.decision_cases import read_case, reasons_table
 from kiosk.cli.options import json_option, sessions_data_option
-from kiosk.cli.reasons import reasons_table
 from kiosk.cli.terminal import one_line, tell_caution, tell_line
 from kiosk.files import write_file
 from kiosk.game import Board

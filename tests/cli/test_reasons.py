@@ -10,8 +10,8 @@ import pytest
 
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import FlipInMove
+from kiosk.cli.decision_cases import EXAMPLES, reason_example, reasons_table
 from kiosk.cli.main import main
-from kiosk.cli.reasons import EXAMPLES, reason_example, reasons_table
 from tests.samples import CATALOGUES
 
 PAGE = Path(__file__).parents[2] / "docs" / "explanation" / "mentaliser.md"
