@@ -1,21 +1,28 @@
-"""Write events as JSON values and read them again, as the database keeps them."""
+"""Write events as JSON values and read them again, as the database keeps them.
+
+Events in the form in which they are nearly always written are read several times as fast as in general.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import fields as fields_of
+from enum import Enum
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from types import NoneType, UnionType
+from typing import TYPE_CHECKING, Any, TypeVar, get_args, get_type_hints
 
 from kiosk import UserInputError
 from kiosk.assistance.policy import ActionSpec, GateDecision, MoveOutcome, Phase, find_action
 from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import Event
 from kiosk.experiment.items import NOT_APPLICABLE, NotApplicable, Response
-from kiosk.experiment.plain_reading import by_name, plain_reader, read_position, read_texts
 from kiosk.game import Position
 
 if TYPE_CHECKING:
     from cattrs import Converter
+
+_T = TypeVar("_T")
 
 _NOT_APPLICABLE_RECORD = {NOT_APPLICABLE.value: True}
 """What stands for an item that does not apply: neither a number nor a text, so nothing reads it as an answer."""
@@ -110,13 +117,101 @@ def _read(name: str, fields: dict[str, Any]) -> Event:
     return event
 
 
+_PLAIN = frozenset({int, str, bool, float, NoneType})
+"""What JSON and Python write alike."""
+
+
+class _NotPlainError(ValueError):
+    """Values that are not in the form that is read here; they may be right all the same."""
+
+
+def _plain_reader(
+    kind: type[_T], converters: Mapping[Any, Callable[[Any], Any]], general: Callable[[Any], Callable[[Any, Any], Any]]
+) -> Callable[[dict[str, Any]], _T] | None:
+    """Return what makes an object of a dictionary, which it keeps; None for an unfit class.
+
+    The dictionary has to hold every field in the declared order, each of exactly its kind, and _NotPlainError is raised
+    for any other. ``converters`` read fields that are not plain by their annotation; ``general`` finds what reads all
+    others. Both raise what they like.
+    """
+    if hasattr(kind, "__post_init__") or not hasattr(kind, "__dict__") or "__slots__" in vars(kind):
+        return None
+    hints = get_type_hints(kind)
+    annotations = {field.name: hints[field.name] for field in fields_of(kind)}  # type: ignore[arg-type]  # a dataclass
+    names = list(annotations)
+    plain = [_plain_types(annotation) for annotation in annotations.values()]
+    others = [
+        (name, converters.get(annotation) or _field_reader(annotation, general))
+        for (name, annotation), types in zip(annotations.items(), plain, strict=True)
+        if types is None
+    ]
+    known: set[tuple[object, ...]] = set()
+
+    def read(values: dict[str, Any]) -> _T:
+        form = (*values, *map(type, values.values()))
+        if form not in known:
+            types = tuple(map(type, values.values()))
+            if list(values) != names:
+                raise _NotPlainError(names)
+            if not all(allowed is None or found in allowed for found, allowed in zip(types, plain, strict=True)):
+                raise _NotPlainError(types)
+            known.add(form)
+        if others:
+            values.update([(name, convert(values[name])) for name, convert in others])
+        made = object.__new__(kind)
+        # A frozen class sets every field by a call of its own, which is most of what making an object costs.
+        object.__setattr__(made, "__dict__", values)
+        return made
+
+    return read
+
+
+def _plain_types(annotation: Any) -> frozenset[type] | None:
+    """Return the types that a field may have as they are; None if its values have to be converted."""
+    types = frozenset(get_args(annotation)) if isinstance(annotation, UnionType) else frozenset({annotation})
+    return types if types <= _PLAIN else None
+
+
+def _field_reader(annotation: Any, general: Callable[[Any], Callable[[Any, Any], Any]]) -> Callable[[Any], Any]:
+    """Return what reads a field of a closed set, and of anything else the general way."""
+    *types, last = get_args(annotation) if isinstance(annotation, UnionType) else (annotation,)
+    if isinstance(last, type) and last is NoneType and len(types) == 1:
+        one, empty = types[0], {None: None}
+    else:
+        one, empty = annotation, {}
+    if isinstance(one, type) and issubclass(one, Enum):
+        return {**empty, **{member.value: member for member in one}}.__getitem__
+    structure = general(annotation)
+    return lambda value: structure(value, annotation)
+
+
+def _read_position(place: dict[str, int]) -> Position:
+    """Return a place on the board; raises what it likes for anything but two whole numbers."""
+    row, column = place["row"], place["column"]
+    if len(place) != len(Position.__slots__) or type(row) is not int or type(column) is not int:
+        raise _NotPlainError(place)
+    return Position(row, column)
+
+
+def _read_texts(values: list[str]) -> tuple[str, ...]:
+    """Return a list of texts as a tuple; raises _NotPlainError for anything else."""
+    if type(values) is not list or not all(type(value) is str for value in values):
+        raise _NotPlainError(values)
+    return tuple(values)
+
+
+def _by_name(closed_set: type[Enum]) -> Callable[[str], Enum]:
+    """Return what finds a member of a closed set by its name in small letters."""
+    return {member.name.lower(): member for member in closed_set}.__getitem__
+
+
 @cache
 def _kind_to_read(name: str) -> tuple[type[Event], Callable[[dict[str, Any]], Event] | None]:
     """Return a kind and what reads it fast, if anything does; raises ValueError if there is none of that name."""
     kind = event_kinds().get(name)
     if kind is None:
         raise ValueError(f"event: there is no event {name!r}")
-    return kind, plain_reader(kind, _CONVERTERS, _converter().get_structure_hook)
+    return kind, _plain_reader(kind, _CONVERTERS, _converter().get_structure_hook)
 
 
 _TRACE = tuple[tuple[int, float, float], ...]
@@ -128,13 +223,13 @@ def _trace(places: list[Any]) -> tuple[tuple[int, float, float], ...]:
 
 
 _CONVERTERS: Mapping[Any, Callable[[Any], Any]] = {
-    Position: read_position,
+    Position: _read_position,
     ActionSpec: _action,
     EmbodimentName: EmbodimentName.from_text,
     Response | None: lambda value: _response(value, None),
-    tuple[str, ...]: read_texts,
+    tuple[str, ...]: _read_texts,
     _TRACE: _trace,
-    **{closed_set: by_name(closed_set) for closed_set in (Phase, MoveOutcome, GateDecision)},
+    **{closed_set: _by_name(closed_set) for closed_set in (Phase, MoveOutcome, GateDecision)},
 }
 """How the fields are read that are not written as they are."""
 
