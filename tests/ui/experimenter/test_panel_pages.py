@@ -234,3 +234,13 @@ def test_what_the_session_does_stands_beside_its_stage_where_it_has_the_whole_ca
         levels.append(told["Paused while this is open"] - told["for 3 min"])
     # In one line where the numbers are below, and in two where one of them stands beside it.
     assert abs(levels[0]) < NEAR < levels[1]
+
+
+def test_the_way_out_is_outlined_and_its_ring_lies_on_its_edge(window: Window) -> None:
+    show(window, "en", WIDE)
+    close = find_item(window.shown.contentItem(), "panel-close")
+    assert close is not None
+    assert close.property("activeFocus")
+    (ring,) = (item for item in of_kind(window, "FocusRing") if lies_in(item, "PanelView"))
+    assert not close.property("solid")
+    assert (ring.mapToScene(QPointF()), ring.size()) == (close.mapToScene(QPointF()), close.size())

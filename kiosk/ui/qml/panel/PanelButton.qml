@@ -14,8 +14,8 @@ Button {
     property bool choosable: false
     // What is pressed most, and must be found at a glance.
     property bool filled: false
-    // The keyboard's ring lies inside, where the button ends at the page's margin.
-    property bool ringInside: false
+    // The keyboard's ring takes the place of the edge, where the button ends at the page's margin.
+    property bool ringInPlace: false
     // What takes something from a visitor.
     property bool grave: false
     property real least: 68 * Theme.unit
@@ -89,10 +89,9 @@ Button {
         border { color: button.enabled ? button.tone : Theme.edge; width: (button.grave ? 3 : 2) * Theme.unit }
         FocusRing {
             around: button
-            reach: (button.ringInside ? -7 : 5) * Theme.unit
-            radius: (button.ringInside ? 7 : 15) * Theme.unit
-            border.color: button.ringInside && button.solid ? Theme.white : Theme.ink
-            border.width: 3 * Theme.unit
+            reach: (button.ringInPlace ? 0 : 5) * Theme.unit
+            radius: (button.ringInPlace ? 12 : 15) * Theme.unit
+            border.width: (button.ringInPlace ? 5 : 3) * Theme.unit
         }
     }
 }

@@ -75,9 +75,8 @@ FocusScope {
             objectName: "panel-close"
             anchors { right: parent.right; top: parent.top }
             words: view.words["console-close"]
-            filled: true
             horizontalPadding: 28 * Theme.unit
-            ringInside: true
+            ringInPlace: true
             font.pixelSize: view.lettering
             focus: true
             onClicked: view.panel.wish("panel", "")
@@ -174,7 +173,7 @@ FocusScope {
             visible: view.onToday && view.panel.shortcuts.rows.length > 0
             words: view.words["console-shortcuts"]
             horizontalPadding: 28 * Theme.unit
-            ringInside: true
+            ringInPlace: true
             font.pixelSize: view.lettering
             onClicked: {
                 view.onToday = false
