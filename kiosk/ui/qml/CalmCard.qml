@@ -1,7 +1,6 @@
 // A calm word over everything: a title, a line, and perhaps something to choose.
 pragma ComponentBehavior: Bound
 import QtQuick
-import QtQuick.Shapes
 import "."
 
 FocusScope {
@@ -47,33 +46,12 @@ FocusScope {
     // What there is to choose: the name of each, its words, and whether it is quiet. The first has the keyboard.
     property var choices: []
     signal chosen(string name)
-    // How long it stays, in ms; 0 where that is not known. The seconds that are left then stand in place of the
-    // drawing, with their unit below, and a ring around them empties in small steps.
+    // How long it stays, in ms, or 0 where that is not known. The seconds that are left, with their unit, then stand in
+    // place of the drawing.
     property int lasts: 0
     property string second: ""
-    readonly property int steps: 40
-    property int msLeft: 0
-    readonly property int secondsLeft: Math.ceil(msLeft / 1000)
-    // Where nothing moves, the ring stays whole.
-    readonly property int stepsLeft: Theme.motion === 0 ? steps : Math.ceil(steps * msLeft / Math.max(1, lasts))
-    readonly property real badge: (lasts > 0 ? (roomy ? 360 : speaker > 0 ? 220 : 200) : roomy ? 190 : large ? 150 : 112) * Theme.unit
-    onLastsChanged: {
-        emptying.stop()
-        msLeft = lasts
-        emptying.duration = lasts
-        if (lasts > 0)
-            emptying.start()
-    }
-    // It tells the time, so the seconds go on where nothing else moves.
-    NumberAnimation {
-        id: emptying
-        target: calm
-        property: "msLeft"
-        to: 0
-        duration: 0
-    }
 
-    onVisibleChanged: if (visible && buttons.count > 0) buttons.itemAt(0).focus = true
+    onVisibleChanged: if (visible) buttons.take()
 
     // A card that is not turned meanwhile, at its place in a row of so many.
     component Lying: Item {
@@ -141,7 +119,7 @@ FocusScope {
             id: content
             anchors.centerIn: parent
             width: parent.width - 4 * Theme.gap
-            spacing: (calm.roomy || calm.large && flow.alone ? 2 : 1.5) * Theme.gap
+            spacing: (calm.roomy || calm.large && buttons.alone ? 2 : 1.5) * Theme.gap
             Row {
                 anchors.horizontalCenter: parent.horizontalCenter
                 visible: calm.lies && !calm.spread
@@ -153,70 +131,14 @@ FocusScope {
                     Lying { slot: (calm.beside > 0 && calm.large ? 240 : calm.large ? 200 : 130) * Theme.unit }
                 }
             }
-            Rectangle {
+            CalmSign {
                 anchors.horizontalCenter: parent.horizontalCenter
-                visible: calm.sign !== "" || calm.lasts > 0
-                width: calm.badge
-                height: width
-                radius: width / 2
-                color: Theme.sand
-                Shape {
-                    id: ring
-                    objectName: "time-left"
-                    readonly property real far: parent.width / 2 + 10 * Theme.unit
-                    anchors.centerIn: parent
-                    visible: calm.lasts > 0
-                    width: 2 * far
-                    height: 2 * far
-                    antialiasing: true
-                    ShapePath {
-                        strokeColor: Theme.sea
-                        strokeWidth: 8 * Theme.unit
-                        capStyle: ShapePath.FlatCap
-                        fillColor: "transparent"
-                        PathAngleArc {
-                            centerX: ring.far
-                            centerY: ring.far
-                            radiusX: ring.far
-                            radiusY: ring.far
-                            startAngle: -90
-                            sweepAngle: 360 * calm.stepsLeft / calm.steps
-                        }
-                    }
-                }
-                // Read by the eye alone: a screen reader would speak every second.
-                PlainText {
-                    objectName: "seconds-left"
-                    anchors { centerIn: parent; verticalCenterOffset: -0.1 * calm.badge }
-                    visible: calm.lasts > 0
-                    width: 0.8 * parent.width
-                    text: calm.secondsLeft
-                    font { pixelSize: 0.46 * calm.badge; bold: true }
-                    fontSizeMode: Text.HorizontalFit
-                    minimumPixelSize: Theme.body
-                    horizontalAlignment: Text.AlignHCenter
-                    color: Theme.ink
-                    Accessible.ignored: true
-                }
-                PlainText {
-                    objectName: "seconds-unit"
-                    anchors { centerIn: parent; verticalCenterOffset: 0.26 * calm.badge }
-                    visible: calm.lasts > 0
-                    width: 0.66 * parent.width
-                    text: calm.second
-                    font.pixelSize: Math.max(24 * Theme.unit, 0.16 * calm.badge)
-                    horizontalAlignment: Text.AlignHCenter
-                    color: Theme.ink
-                    Accessible.ignored: true
-                }
-                Drawing {
-                    anchors.centerIn: parent
-                    visible: calm.lasts === 0
-                    scale: (calm.roomy ? 4.2 : calm.large ? 3.4 : 2.6) * Theme.unit
-                    path: calm.sign
-                    ink: Theme.ink
-                    thick: 2.2
-                }
+                width: (calm.lasts > 0 ? (calm.roomy ? 360 : calm.speaker > 0 ? 220 : 200)
+                    : calm.roomy ? 190 : calm.large ? 150 : 112) * Theme.unit
+                enlarged: (calm.roomy ? 4.2 : calm.large ? 3.4 : 2.6) * Theme.unit
+                sign: calm.sign
+                lasts: calm.lasts
+                second: calm.second
             }
             Balanced {
                 width: parent.width
@@ -255,50 +177,14 @@ FocusScope {
                     horizontalAlignment: Text.AlignHCenter
                 }
             }
-            Flow {
-                id: flow
-                // Two that fit beside each other are as wide, and far apart. The first is where the way on is on a page.
-                layoutDirection: pair && !Theme.mirrored ? Qt.RightToLeft : Qt.LeftToRight
-                readonly property real half: (content.width - spacing) / 2
-                // All there is to do, perhaps in a hurry, is as wide as the card.
-                readonly property bool alone: calm.choices.length === 1
-                readonly property bool pair: buttons.count === 2 && widest <= half
-                // How many there are by now: the count changes before they are made, and their widths would then be missed.
-                property int made: 0
-                readonly property real widest: {
-                    let most = 0
-                    for (let i = 0; i < made; i++)
-                        most = Math.max(most, (buttons.itemAt(i) as BigButton)?.wish ?? 0)
-                    return most
-                }
-                readonly property real needed: {
-                    let sum = 0
-                    for (let i = 0; i < made; i++)
-                        sum += (buttons.itemAt(i) as BigButton)?.width ?? 0
-                    return sum + (made - 1) * spacing
-                }
+            CalmChoices {
+                id: buttons
                 anchors.horizontalCenter: parent.horizontalCenter
-                topPadding: alone && calm.large ? Theme.gap : 0
-                width: Math.min(content.width, Math.ceil(needed))
-                spacing: (buttons.count === 2 ? 2 : 1) * Theme.gap
-                visible: calm.choices.length > 0
-                Repeater {
-                    id: buttons
-                    model: calm.choices
-                    onItemAdded: flow.made++
-                    onItemRemoved: flow.made--
-                    BigButton {
-                        required property var modelData
-                        objectName: modelData.name
-                        most: content.width
-                        width: flow.alone ? most : flow.pair ? Math.floor(flow.half) : Math.min(wish, most)
-                        font.pixelSize: Theme.size(flow.alone ? 50 : calm.roomy ? 40 : 36)
-                        verticalPadding: (flow.alone ? 36 : 30) * Theme.unit
-                        words: modelData.words
-                        quiet: modelData.quiet ?? false
-                        onClicked: calm.chosen(modelData.name)
-                    }
-                }
+                most: content.width
+                choices: calm.choices
+                large: calm.large
+                roomy: calm.roomy
+                onChosen: name => calm.chosen(name)
             }
         }
     }

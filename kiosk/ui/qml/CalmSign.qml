@@ -1,0 +1,98 @@
+// What a calm card shows above its title: a drawing, or the seconds for which the card stays. A ring around these empties in
+// small steps.
+import QtQuick
+import QtQuick.Shapes
+import "."
+
+Rectangle {
+    id: badge
+
+    // The lines of the drawing, on a square of 24, and how much these are enlarged; empty for none.
+    required property string sign
+    required property real enlarged
+    // How long the card stays, in ms; 0 where that is not known.
+    required property int lasts
+    // The unit of the seconds.
+    required property string second
+
+    readonly property int steps: 40
+    property int msLeft: 0
+    // Where nothing moves, the ring stays whole.
+    readonly property int stepsLeft: Theme.motion === 0 ? steps : Math.ceil(steps * msLeft / Math.max(1, lasts))
+
+    visible: sign !== "" || lasts > 0
+    height: width
+    radius: width / 2
+    color: Theme.sand
+    onLastsChanged: {
+        emptying.stop()
+        msLeft = lasts
+        emptying.duration = lasts
+        if (lasts > 0)
+            emptying.start()
+    }
+    // It tells the time, so the seconds go on where nothing else moves.
+    NumberAnimation {
+        id: emptying
+        target: badge
+        property: "msLeft"
+        to: 0
+        duration: 0
+    }
+
+    Shape {
+        id: ring
+        objectName: "time-left"
+        readonly property real far: badge.width / 2 + 10 * Theme.unit
+        anchors.centerIn: parent
+        visible: badge.lasts > 0
+        width: 2 * far
+        height: 2 * far
+        antialiasing: true
+        ShapePath {
+            strokeColor: Theme.sea
+            strokeWidth: 8 * Theme.unit
+            capStyle: ShapePath.FlatCap
+            fillColor: "transparent"
+            PathAngleArc {
+                centerX: ring.far
+                centerY: ring.far
+                radiusX: ring.far
+                radiusY: ring.far
+                startAngle: -90
+                sweepAngle: 360 * badge.stepsLeft / badge.steps
+            }
+        }
+    }
+    // Read by the eye alone: a screen reader would speak every second.
+    PlainText {
+        objectName: "seconds-left"
+        anchors { centerIn: parent; verticalCenterOffset: -0.1 * badge.width }
+        visible: badge.lasts > 0
+        width: 0.8 * badge.width
+        text: Math.ceil(badge.msLeft / 1000)
+        font { pixelSize: 0.46 * badge.width; bold: true }
+        fontSizeMode: Text.HorizontalFit
+        minimumPixelSize: Theme.body
+        horizontalAlignment: Text.AlignHCenter
+        Accessible.ignored: true
+    }
+    PlainText {
+        objectName: "seconds-unit"
+        anchors { centerIn: parent; verticalCenterOffset: 0.26 * badge.width }
+        visible: badge.lasts > 0
+        width: 0.66 * badge.width
+        text: badge.second
+        font.pixelSize: Math.max(24 * Theme.unit, 0.16 * badge.width)
+        horizontalAlignment: Text.AlignHCenter
+        Accessible.ignored: true
+    }
+    Drawing {
+        anchors.centerIn: parent
+        visible: badge.lasts === 0
+        scale: badge.enlarged
+        path: badge.sign
+        ink: Theme.ink
+        thick: 2.2
+    }
+}
