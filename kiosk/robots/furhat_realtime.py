@@ -25,7 +25,7 @@ from kiosk.language_codes import with_region
 from kiosk.robots.driver import Capabilities, Capability, FailureKind, RobotDriver, RobotError, Utterance
 from kiosk.robots.embodiment import BoardPoint
 from kiosk.robots.furhat import WISHES, to_robot_location
-from kiosk.robots.lookup import NameLookup
+from kiosk.robots.http_client import NameLookup
 from kiosk.units import MS_PER_SECOND
 
 PATH = "/v1/events"

@@ -17,7 +17,7 @@ from kiosk.robots.adapter import AsyncRobotAdapter
 from kiosk.robots.driver import FailureKind, RobotDriver, RobotError
 from kiosk.robots.furhat import Furhat
 from kiosk.robots.furhat_realtime import FurhatRealtime
-from kiosk.robots.lookup import NameLookup
+from kiosk.robots.http_client import NameLookup
 from kiosk.robots.registry import robot_check
 from kiosk.robots.selector import EmbodimentSelector
 from tests.robots.furhat_fake import FAULTS, FurhatFake, Mode
@@ -147,7 +147,7 @@ def slow_names(monkeypatch: pytest.MonkeyPatch) -> Iterator[Event]:
 def test_while_a_name_is_looked_up_the_avatar_helps_and_then_the_robot(
     kind: type[RobotDriver], slow_names: Event, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("kiosk.robots.lookup.LOOKUP_S", 0.05)
+    monkeypatch.setattr("kiosk.robots.http_client.LOOKUP_S", 0.05)
     with ExitStack() as stack:
         fake: FurhatFake | RealtimeFake = FurhatFake() if kind is Furhat else RealtimeFake()
         stack.enter_context(fake)
