@@ -26,7 +26,6 @@ from kiosk.robots.registry import create_robot
 from kiosk.robots.selector import EmbodimentSelector
 from kiosk.store.recorder import Recorder
 from kiosk.ui.condition_assigner import ConditionAssigner
-from kiosk.ui.disk_writer import DiskWriter
 from kiosk.ui.event_loop import (
     Clock,
     EventLoop,
@@ -46,6 +45,7 @@ from kiosk.ui.input import Activity, ChoiceReset, PointerTrace
 from kiosk.ui.kiosk_window import KioskWindow
 from kiosk.ui.markers import MarkerStream
 from kiosk.ui.preparation import Preparation, steps_of
+from kiosk.ui.recording import DiskWriter
 from kiosk.ui.renderer import SoundEffect
 from kiosk.ui.screens.attract import IdleLife
 from kiosk.ui.screens.avatar import AvatarBody

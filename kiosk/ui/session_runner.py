@@ -23,14 +23,12 @@ from kiosk.lazy_dataclass import dataclass
 from kiosk.robots.selector import EmbodimentSelector
 from kiosk.store.participants import ReturningVisitor
 from kiosk.store.recorder import Provenance, Recorder, StoreBusy
-from kiosk.ui.busy_wait import BusyWait
 from kiosk.ui.condition_assigner import ConditionAssigner
-from kiosk.ui.disk_writer import DiskWriter
 from kiosk.ui.event_loop import Clock, TimerWait
+from kiosk.ui.recording import BusyWait, DiskWriter, SessionRecording
 from kiosk.ui.renderer import Renderer, SoundEffect, sound_for
 from kiosk.ui.returning import ReturnDesk
 from kiosk.ui.screens.registry import ScreenSet
-from kiosk.ui.session_recording import SessionRecording
 
 if TYPE_CHECKING:
     from kiosk.experiment.session import Session

@@ -25,7 +25,7 @@ from kiosk.game import Position
 from kiosk.store.database import FILE
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Recorder
-from kiosk.ui.busy_wait import LONGEST_MS, TOLD_AFTER_MS
+from kiosk.ui.recording import LONGEST_MS, TOLD_AFTER_MS
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import lay_out
 from kiosk.ui.window import RunMode, WindowMode

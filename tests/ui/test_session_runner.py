@@ -17,7 +17,7 @@ from kiosk.experiment.outcomes import Stage, Status
 from kiosk.game import Position
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.ui.disk_writer import DiskWriter
+from kiosk.ui.recording import DiskWriter
 from kiosk.ui.session_runner import ERROR_SCREEN_MS
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import TINY, short

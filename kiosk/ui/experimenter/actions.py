@@ -22,13 +22,13 @@ from kiosk.robots.embodiment import Health
 from kiosk.robots.selector import EmbodimentSelector
 from kiosk.store.recorder import Recorder, StoreBusy
 from kiosk.store.snapshot import InterruptedSession, OpenBreak, UnreadableSession
-from kiosk.ui.busy_wait import BusyWait
 from kiosk.ui.condition_assigner import ConditionAssigner
 from kiosk.ui.event_loop import Clock, TimerWait
 from kiosk.ui.experimenter.audit_log import AuditLog
 from kiosk.ui.experimenter.authorisation import AuthorisationFlow
 from kiosk.ui.experimenter.maintenance import MaintenanceScheduler
 from kiosk.ui.experimenter.view_model import NoteScreen
+from kiosk.ui.recording import BusyWait
 from kiosk.ui.screens.registry import ScreenSet
 from kiosk.ui.session_runner import SessionRunner
 from kiosk.ui.voice import Voice

@@ -15,8 +15,8 @@ from kiosk.experiment.outcomes import Stage, Status
 from kiosk.store.database import FILE
 from kiosk.store.queries import open_repository
 from kiosk.store.snapshot import wrong_pins
-from kiosk.ui.busy_wait import LONGEST_MS, TOLD_AFTER_MS
 from kiosk.ui.experimenter.view_model import AuthorisationStep
+from kiosk.ui.recording import LONGEST_MS, TOLD_AFTER_MS
 from tests.ui.experimenter.conftest import Desk, MakeDesk, Witness
 
 
