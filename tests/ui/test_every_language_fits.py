@@ -641,9 +641,56 @@ def test_the_avatar_shows_its_back_at_one_place_on_the_pages_that_rate_it_and_no
         places += [] if back is None else [whole(back)]
         why = find_item(ground, "why-turned-away")
         assert (why is None) == (back is None)
-        assert back is None or why is None or 0 <= whole(back).left() - whole(why).right() <= 16
+        if back is None or why is None:
+            continue
+        # On the lower edge of the window, in full size, with one line beside it.
+        assert 0 <= whole(back).left() - whole(why).right() <= 16
+        assert abs(whole(back).bottom() - layout.height) < 1
+        assert whole(back).height() >= 148
+        assert why.property("lineCount") == 1
+        assert 34 <= why.property("font").pixelSize() <= 36
     screens.avatar.leave(away=False)
     assert len({place.left() for place in places}) == (0 if layout.robot else 1)
+
+
+@pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1366, 768), Layout(1080, 1920)], ids=str)
+@pytest.mark.parametrize("size", TextSize)
+def test_the_back_of_the_avatar_stands_clear_and_still_whatever_is_answered(
+    kiosk: tuple[Window, StudyConfig], layout: Layout, size: TextSize
+) -> None:
+    window, ground = kiosk[0], kiosk[0].shown.contentItem()
+    assert list(shown_in(kiosk, layout, ("four ratings",))) == ["four ratings"]
+    # Its words beside the way on are long: with the largest texts, they push the back from the middle.
+    window.screens.set_language(next(plan for plan in kiosk[1].plans if plan.language == "es").catalogue)
+    screens, items = window.screens, ASKED["social-intelligence"].items[:4]
+    turn = partial(screens.form.show, items, 2, 5)
+    states: list[Callable[[], None]] = [
+        lambda: screens.kiosk.offer_back(offered=False),
+        lambda: screens.kiosk.offer_back(offered=True),
+        *(partial(screens.form.show_answer, item.id, 3) for item in items),
+        turn,
+    ]
+    places = set()
+    try:
+        screens.kiosk.set_text_size(size)
+        screens.avatar.leave(away=True)
+        turn()
+        for state in states:
+            state()
+            lay_out(window.shown)
+            assert_all_can_be_read(window.shown, f"{layout}, {size.value}")
+            back, on = find_item(ground, "turned-away"), find_item(ground, "continue")
+            assert back is not None
+            assert on is not None
+            words, upright = find_item(ground, "why-turned-away"), layout.width < layout.height
+            places.add((whole(back).getRect(), None if words is None else whole(words).getRect()))
+            apart = whole(back).top() - whole(on).bottom() if upright else whole(on).left() - whole(back).right()
+            assert apart >= 24 * min(layout.width, layout.height) / 1080 - 1
+    finally:
+        screens.avatar.leave(away=False)
+        screens.kiosk.set_text_size(TextSize.NORMAL)
+        screens.kiosk.offer_back(offered=True)
+    assert len(places) == 1
 
 
 @pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1280, 800), Layout(1080, 1920)], ids=str)

@@ -219,8 +219,10 @@ def test_the_words_of_an_avatar_that_is_turned_away_stand_at_its_right(window: W
     window.screens.avatar.leave(away=True)
     try:
         show(window, "form", RATED, RATED.model_copy(update={"id": "again"}))
-        words, back, title = (place(window, name) for name in ("why-turned-away", "turned-away", "form-progress"))
+        words, back = (place(window, name) for name in ("why-turned-away", "turned-away"))
+        on, leave = (place(window, name) for name in ("continue", "back"))
     finally:
         window.screens.avatar.leave(away=False)
     assert 0 <= words.left() - back.right() <= NEAR
-    assert words.right() + NEAR < title.left()
+    assert on.right() + NEAR < back.left()
+    assert words.right() + NEAR < leave.left()

@@ -12,7 +12,6 @@ PageFrame {
     // How far from the window's left edge the page begins.
     required property real before
 
-    readonly property alias widths: wordWidths
     // Whether a line over the cards tells which page it is.
     readonly property bool lined: shape.lined
     // Whether the keys of a number stand in the helper's place.
@@ -21,11 +20,13 @@ PageFrame {
     // Pale letters would not have the contrast that was asked for.
     readonly property real setBack: keysBeside && shape.upright && !Theme.highContrast ? 0.3 : 1
 
-    // What is over the first card in the title's line beside its words.
-    readonly property rect bare: {
-        const words = titleWidth + (besides ? progress.follows ? Theme.gap + progress.width : column : 0)
-        const edge = (width - column) / 2
-        return Theme.mirrored ? Qt.rect(edge, 0, column - cornered - words, begin + home.y) : Qt.rect(edge + words, 0, width - edge - words, begin + home.y)
+    // How much of the ways' line they take at both ends of a wide page, with and without a way back, whatever is answered
+    // and pointed out: what stands between them stays where it is.
+    readonly property real backTakes: way.backWish
+    readonly property real onTakes: {
+        const label = text => wordWidths.bold(text, way.letters) + 2 * way.button.leftPadding
+        const reasons = form.reasons.map(reason => wordWidths.slack * wordWidths.plain(reason, Theme.size(28)))
+        return Math.max(label(words["form-skip"]), label(words["form-next"]) + Theme.gap + Math.max(0, ...reasons))
     }
     // Whether it is and stays so.
     readonly property bool still: keyboard.field === null && (shape.upright || !pane.long)

@@ -34,6 +34,8 @@ FocusScope {
     readonly property bool goes: label !== ""
     readonly property bool refuses: other !== ""
     readonly property bool returns: kiosk.goesBack
+    // How wide the way back is, where there is one.
+    readonly property alias backWish: back.wish
     signal went()
     signal turnedDown()
 

@@ -50,7 +50,9 @@ QtObject {
     // On an upright screen the assistant stands below: with its sentence, alone, or not at all. It makes room for
     // large texts, but on a form, where the keys of a number stand in its place.
     readonly property real uprightHeight: high ? (board !== null ? Math.min(free, board.boardLayout.wish) : free)
-        : unwatched ? room - corner.height - Theme.gap : room * uprightShare
+        : unwatched ? room - uprightFoot : room * uprightShare
+    // What stands below a form without an onlooker: the controls, and the helper's back, unless large texts need its height.
+    readonly property real uprightFoot: Math.max(corner.height + Theme.gap, Theme.textSize <= 1 ? 136 * Theme.unit : 0)
     // Board and assistant stand close together: the board takes what its cards need, at least half of the screen.
     readonly property real uprightShare: !speaks ? (Theme.textSize > 1.15 && kiosk.screen !== "form" ? 0.84 : 0.78)
         : kiosk.screen === "attract" ? (Theme.textSize > 1.3 ? 0.76 : Math.max(helper.says ? 0.57 : 0.64, 0.57 + 0.25 * (Theme.textSize - 1)))

@@ -296,6 +296,11 @@ class FormScreen(QObject):
         number = self._to_go()
         return self._catalogue.text("form-to-go", number=number) if number else ""
 
+    @Property(list, notify=changed)
+    def reasons(self) -> list[str]:
+        """Return all that ``waiting`` can say on this page."""
+        return [self._catalogue.text("form-to-go", number=number) for number in range(1, len(self._items) + 1)]
+
     @Slot(str, int)
     def rate(self, item: str, value: int) -> None:
         """Choose a point of a scale."""
