@@ -19,7 +19,7 @@ from kiosk.cli.terminal import counted, tell_line
 from kiosk.garbage import no_collections
 from kiosk.guard import guarded
 from kiosk.supervisor import REFUSED, Supervisor, SupervisorEvent, SupervisorEventKind, Timeouts
-from kiosk.ui.qt_platform import obstacle
+from kiosk.ui.qt_platform import obstacle, remove_import_hook
 
 # What opens the kiosk is loaded once the first picture is on the screen.
 # ruff: noqa: PLC0415
@@ -74,8 +74,6 @@ def run_command(
     shown = not (window or unattended)
     with guarded() as beat, no_collections() as collect, _splash(study, shown=shown) as hide:
         # Before most of the modules, so that their sources are not read.
-        from kiosk.ui.import_hook import remove_import_hook
-
         remove_import_hook()
         from kiosk.cli.opening import Opening, open_kiosk
 

@@ -17,7 +17,7 @@ from typing import IO, TYPE_CHECKING
 
 from kiosk import program
 from kiosk.preflight import CheckResult, Severity
-from kiosk.ui.qt_platform import obstacle
+from kiosk.ui.qt_platform import numbered_screens, obstacle
 from kiosk.units import MS_PER_SECOND
 
 if TYPE_CHECKING:
@@ -41,8 +41,6 @@ _PLUG_IN = "plug one in, and run this in the booth's own session"
 def screens_check(number: int) -> Iterator[CheckResult]:
     """Everything about the screen of a number and what surrounds it."""
     from PySide6.QtGui import QGuiApplication
-
-    from kiosk.ui.displays import numbered_screens
 
     found = obstacle()
     if found is not None:

@@ -13,7 +13,7 @@ from PySide6.QtGui import QCursor, QGuiApplication, QInputDevice, QPointerEvent,
 from PySide6.QtQuick import QQuickWindow
 
 from kiosk.robots.embodiment import Health
-from kiosk.ui.displays import numbered_screens
+from kiosk.ui.qt_platform import numbered_screens
 
 _log = logging.getLogger(__name__)
 

@@ -1,12 +1,12 @@
-"""Finds out whether Qt can open a window here.
+"""Finds out whether Qt can open a window here, and on which screens, and prepares Qt before there is one.
 
-Where it cannot, Qt itself would end the process with an abort.
-
-Nothing of Qt is imported for it.
+Where no window can be opened, Qt itself would end the process with an abort. Finding that out imports nothing of Qt;
+the functions that need Qt import it themselves.
 """
 
 from __future__ import annotations
 
+import builtins
 import ctypes
 import os
 import re
@@ -14,8 +14,12 @@ import sys
 from collections.abc import Iterator, Mapping
 from importlib.util import find_spec
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from kiosk.lazy_dataclass import dataclass
+
+if TYPE_CHECKING:
+    from PySide6.QtGui import QScreen
 
 HEADLESS = "'recollect rehearse --headless' and 'recollect replay N --headless' need none"
 
@@ -54,6 +58,8 @@ _PACKAGES = {
 _PROGRAM = False
 """For ``of_the_screen``."""
 _X11 = ("libxcb", "libX11", "libxkbcommon-x11")
+_PYTHONS_OWN = "__orig_import__"
+"""Where PySide keeps Python's ``import``, which it replaces."""
 _MISSING = re.compile(r"(?P<library>lib[\w.+-]+\.so[.\d]*): cannot open shared object file")
 
 
@@ -80,6 +86,26 @@ def draw_in_software() -> None:
     os.environ.setdefault("QT_QUICK_BACKEND", "software")
     os.environ.setdefault("QSG_RENDER_LOOP", "basic")
     os.environ.setdefault("QT_NO_GUI_THREADPOOL", "1")
+
+
+def remove_import_hook() -> None:
+    """Let ``import`` do again what it does without PySide; it may be called more than once.
+
+    PySide replaces Python's ``import`` to offer ``from __future__ import snake_case``. To find out which modules may
+    ask for that, its hook reads the source of each module that is imported, 280 files at the start of a kiosk. No
+    module here uses such a feature.
+    """
+    import PySide6.QtCore  # noqa: F401, PLC0415 - it installs the hook
+
+    builtins.__import__ = getattr(builtins, _PYTHONS_OWN, builtins.__import__)
+
+
+def numbered_screens() -> list[QScreen]:
+    """Return the screens as a study file counts them: the primary one first, the others in the system's order."""
+    from PySide6.QtGui import QGuiApplication  # noqa: PLC0415 - it is loaded once there is an application
+
+    primary = QGuiApplication.primaryScreen()
+    return [primary, *(screen for screen in QGuiApplication.screens() if screen is not primary)]
 
 
 def obstacle(environment: Mapping[str, str] = os.environ) -> Obstacle | None:

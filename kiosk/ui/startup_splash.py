@@ -18,8 +18,7 @@ from PySide6.QtGui import QColor, QGuiApplication, QIcon, QPainter, QPaintEvent,
 
 from kiosk.files import open_to_read
 from kiosk.places import ASSETS
-from kiosk.ui.displays import numbered_screens
-from kiosk.ui.qt_platform import draw_in_software
+from kiosk.ui.qt_platform import draw_in_software, numbered_screens
 
 PAPER = "#FBF6EC"
 """The background of a study that names none."""

@@ -16,8 +16,8 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtQuick import QQuickWindow
 
 from kiosk.ui import kiosk_window
-from kiosk.ui.displays import numbered_screens
 from kiosk.ui.kiosk_window import KioskWindow
+from kiosk.ui.qt_platform import numbered_screens
 from kiosk.ui.window import delete_now
 
 

@@ -25,7 +25,7 @@ from kiosk.ui.checks import (
     screens_check,
     to_json,
 )
-from kiosk.ui.displays import numbered_screens
+from kiosk.ui.qt_platform import numbered_screens
 
 
 @dataclass

@@ -8,7 +8,8 @@ from pathlib import Path
 
 PROGRAM = """
 from importlib import import_module
-from kiosk.ui.import_hook import remove_import_hook
+import PySide6.QtCore
+from kiosk.ui.qt_platform import remove_import_hook
 
 seen = vars(import_module("PySide6.support.feature"))["pyside_feature_dict"]
 import imported_with_the_hook

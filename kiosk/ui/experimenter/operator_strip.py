@@ -15,9 +15,9 @@ from PySide6.QtQuick import QQuickWindow
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment.alarms import AlarmKind
 from kiosk.experiment.booth_status import CLOSED, BoothStatus
-from kiosk.ui.displays import numbered_screens
 from kiosk.ui.experimenter.alarms import alarm_words
 from kiosk.ui.experimenter.panel_rows import stage_name
+from kiosk.ui.qt_platform import numbered_screens
 from kiosk.ui.window import delete_now
 from kiosk.units import MS_PER_MINUTE, MS_PER_SECOND
 
