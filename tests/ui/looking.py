@@ -197,6 +197,13 @@ def background(picture: QImage, where: QRect) -> QColor:
     return QColor.fromRgb(int(codes[np.argmax(counts)]))
 
 
+def appearance(button: QQuickItem, picture: QImage) -> tuple[QSizeF, object, QColor, QColor]:
+    """Return how a button looks, whatever it says: its size, its font, and the colours of its ground and its words."""
+    words = next(each for each in texts(button) if each.property("text") == button.property("words"))
+    size = QSizeF(button.width(), button.height())
+    return size, button.property("font"), background(picture, place(button)), words.property("color")
+
+
 def _pixels(picture: QImage, where: QRect | None) -> NDArray[np.uint8]:
     """Return the red, green and blue of a place in a picture, 0 to 255: (height, width, 3)."""
     inside = (where or picture.rect()).intersected(picture.rect())

@@ -10,11 +10,13 @@ from PySide6.QtGui import QAccessible, QAccessibleInterface
 from PySide6.QtQuick import QQuickItem
 from pytestqt.qtbot import QtBot
 
+from kiosk.assistance.wording import Catalogue
 from kiosk.config import ASSETS, Settings
 from kiosk.experiment.information import ConsentPage, Purpose
 from kiosk.ui.simulated_visitor import UiDriver, lay_out
+from tests.samples import CATALOGUES, ENGLISH
 from tests.ui.conftest import Booth
-from tests.ui.looking import painted, place, texts
+from tests.ui.looking import appearance, painted, place, texts
 
 PAGE = ConsentPage(
     title="Before you begin",
@@ -29,6 +31,8 @@ REQUIRED = frozenset({"take_part", "store"})
 SHORT = PAGE.model_copy(update={"points": ("No name.",), "signs": ("no_name",)})
 MIXED = SHORT.model_copy(update={"purposes": PAGE.purposes[::-1]})
 """A page on which no heading can stand over all that are needed."""
+
+WORDS = CATALOGUES | {"de": Catalogue(ASSETS / "templates" / "two-languages" / "de")}
 
 Done = list[object]
 
@@ -149,39 +153,64 @@ def test_what_is_missing_is_said_in_words_until_it_is_ticked(booth: Booth, done:
     assert not says(booth.item("purpose-store"), words)
 
 
-@pytest.mark.parametrize("scale", [1.0, 1.3, 1.5])
-def test_to_decline_is_as_easy_to_see_as_to_agree(booth: Booth, done: Done, scale: float) -> None:
-    booth.app.window.setProperty("textSize", scale)
+@pytest.mark.parametrize("shown", [{}, {"textSize": 1.3}, {"textSize": 1.5}, {"highContrast": True}], ids=str)
+@pytest.mark.parametrize("size", [(960, 540), (540, 960)], ids=["wide", "upright"])
+def test_once_both_can_be_chosen_to_decline_looks_like_to_agree(
+    booth: Booth, qtbot: QtBot, done: Done, size: tuple[int, int], shown: dict[str, object]
+) -> None:
+    window = booth.app.window
+    for name, value in shown.items():
+        window.setProperty(name, value)
     booth.app.screens.kiosk.offer_back(offered=True)
-    lay_out(booth.app.window)
-    agree, decline = booth.item("agree"), booth.item("decline")
-    assert (decline.width(), decline.height()) == (agree.width(), agree.height())
-    assert decline.property("font") == agree.property("font")
+    window.resize(*size)
+    qtbot.waitUntil(lambda: window.contentItem().width() == size[0])
+
+    def looks() -> list[tuple[object, ...]]:
+        return [appearance(booth.item(name), window.grabWindow()) for name in ("decline", "agree", "back")]
+
+    decline, agree, back = looks()
+    assert decline[:2] == agree[:2]
+    # One waits, and the other can be chosen, as the way back can.
+    assert booth.item("agree").property("waits")
+    assert decline[2:] == back[2:] != agree[2:]
+    booth.app.screens.consent.show_ticks(REQUIRED)
+    decline, agree, back = looks()
+    assert decline == agree
+    assert decline[2:] != back[2:]
     booth.click("decline")
     assert done == ["declined"]
 
 
 @pytest.mark.usefixtures("done")
-def test_on_an_upright_screen_the_way_back_is_beside_the_way_on_and_to_decline_is_no_smaller(
-    booth: Booth, qtbot: QtBot
+@pytest.mark.parametrize("scale", [1.0, 1.3, 1.5])
+@pytest.mark.parametrize("language", ["en", "es", "it", "de", "ar"])
+def test_on_an_upright_screen_both_answers_have_the_same_edges(
+    booth: Booth, qtbot: QtBot, language: str, scale: float
 ) -> None:
-    booth.app.screens.kiosk.offer_back(offered=True)
-    window = booth.app.window
+    kiosk, window = booth.app.screens.kiosk, booth.app.window
+    booth.app.screens.set_language(WORDS.get(language, ENGLISH))
+    kiosk.begin((language,), language, Settings().consent)
+    kiosk.offer_back(offered=True)
+    window.setProperty("textSize", scale)
     window.resize(540, 960)
     qtbot.waitUntil(lambda: window.contentItem().width() == 540)
-    decline, agree, back = (
-        item.mapRectToScene(item.boundingRect()) for item in map(booth.item, ("decline", "agree", "back"))
-    )
-    assert decline.height() == pytest.approx(agree.height(), abs=1)
-    assert decline.left() == back.left() == pytest.approx(540 - agree.right(), abs=1)
-    assert decline.right() == agree.right()
+    decline, agree, back = (place(booth.item(name)) for name in ("decline", "agree", "back"))
+    assert (decline.left(), decline.right()) == (agree.left(), agree.right())
     assert decline.bottom() < agree.top()
-    assert back.center().y() == pytest.approx(agree.center().y(), abs=1)
-    assert booth.item("decline").property("font") == booth.item("agree").property("font")
-    # Without a way back both are as large.
-    booth.app.screens.kiosk.offer_back(offered=False)
+    assert not back.intersects(agree)
+    # They end where the page does, and the way back begins where it begins.
+    edges = (540 - agree.right(), back.left()) if language != "ar" else (agree.left(), 540 - back.right())
+    assert edges[0] == pytest.approx(edges[1], abs=2)
+    # Beside the lower one, but for large words.
+    beside = back.center().y() == pytest.approx(agree.center().y(), abs=1)
+    assert beside or back.top() > agree.bottom()
+    assert beside or scale > 1
+    # Without a way back they have all of the width.
+    kiosk.offer_back(offered=False)
     lay_out(window)
-    assert place(booth.item("decline")).size() == place(booth.item("agree")).size()
+    decline, agree = (place(booth.item(name)) for name in ("decline", "agree"))
+    assert decline.size() == agree.size()
+    assert agree.left() == pytest.approx(540 - agree.right(), abs=2)
 
 
 @pytest.mark.usefixtures("done")

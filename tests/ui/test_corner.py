@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
 
 from kiosk.config import Settings
 from kiosk.experiment.events import SoundSelected, TextSize, TextSizeSelected
@@ -13,6 +14,7 @@ from kiosk.store.queries import open_repository
 from kiosk.ui.input import CHOICES_KEPT_MS
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import SMALL
+from tests.ui.looking import appearance
 from tests.ui.reaching import Finger, Keyboard
 
 CONTROLS = ("control-stop", "control-language", "control-text-size", "control-sound")
@@ -90,6 +92,22 @@ def test_stop_asks_once_and_then_ends_the_session(reading: Booth) -> None:
     reading.click("stop-yes")
     assert reading.screen == "attract"
     assert not reading.sees("control-stop")
+
+
+@pytest.mark.parametrize("scale", [1.0, 1.5])
+@pytest.mark.parametrize("size", [(960, 540), (540, 960)], ids=["wide", "upright"])
+def test_to_stop_looks_like_to_go_on(reading: Booth, qtbot: QtBot, size: tuple[int, int], scale: float) -> None:
+    window = reading.app.window
+    window.setProperty("textSize", scale)
+    window.resize(*size)
+    qtbot.waitUntil(lambda: window.contentItem().width() == size[0])
+    reading.click("control-stop")
+    reading.settle()
+    on, stop = reading.item("stop-no"), reading.item("stop-yes")
+    picture = window.grabWindow()
+    assert appearance(stop, picture) == appearance(on, picture)
+    reading.press(Qt.Key.Key_Return)
+    assert reading.screen == "about"
 
 
 @pytest.mark.parametrize("kept", ["keep", "delete"])

@@ -16,7 +16,9 @@ Flow {
 
     // All there is to do, perhaps in a hurry, is as wide as the card.
     readonly property bool alone: choices.length === 1
-    // Two that fit beside each other are as wide, and far apart. The first is where the way on is on a page.
+    // Two are as wide as each other: far apart, or as wide as the card where they do not fit beside each other. The first is
+    // where the way on is on a page.
+    readonly property bool two: choices.length === 2
     readonly property bool pair: buttons.count === 2 && widest <= half
     readonly property real half: (most - spacing) / 2
     // How many there are by now: the count changes before they are made, and their widths would then be missed.
@@ -47,7 +49,7 @@ Flow {
             required property var modelData
             objectName: modelData.name
             most: flow.most
-            width: flow.alone ? most : flow.pair ? Math.floor(flow.half) : Math.min(wish, most)
+            width: flow.alone || flow.two && !flow.pair ? most : flow.pair ? Math.floor(flow.half) : Math.min(wish, most)
             font.pixelSize: Theme.size(flow.alone ? 50 : flow.roomy ? 40 : 36)
             verticalPadding: (flow.alone ? 36 : 30) * Theme.unit
             words: modelData.words

@@ -1,4 +1,4 @@
-// What can be agreed to. Nothing is ticked beforehand, and to decline is as easy as to agree.
+// What can be agreed to. Nothing is ticked beforehand, and to decline is as easy as to agree, and looks like it.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect

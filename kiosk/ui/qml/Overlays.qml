@@ -58,7 +58,8 @@ Item {
             line: overlays.kiosk.stopLine
             lineSize: roomy ? Theme.size(44) : large ? Theme.size(36) : Theme.body
             code: overlays.kiosk.stopCode
-            choices: [{ name: "stop-no", words: overlays.words["stop-no"] }, { name: "stop-yes", words: overlays.words["stop-yes"], quiet: true }]
+            // Neither is the quieter one: to stop is as easy to see as to go on.
+            choices: [{ name: "stop-no", words: overlays.words["stop-no"] }, { name: "stop-yes", words: overlays.words["stop-yes"] }]
             onChosen: name => name === "stop-yes" ? overlays.kiosk.stop() : overlays.kiosk.ask("")
             Keys.onEscapePressed: overlays.kiosk.ask("")
         }

@@ -21,7 +21,7 @@ FocusScope {
     property bool fills: false
     // What the other way on says, such as a no; and what the two are called.
     property string other: ""
-    // Whether both are as large.
+    // Whether both are alike: as large, and filled from the moment both can be chosen, so that the page favours neither.
     property bool even: false
     property string name: "continue"
     property string otherName: ""
@@ -59,8 +59,10 @@ FocusScope {
     // As high without a way on, so that the way back stands at the same place.
     readonly property real tallest: level ? go.implicitHeight : !goes && !returns ? 0 : Math.max(goes ? go.height : go.implicitHeight, returns ? back.height : 0)
 
-    // Where there are too many for one row: whether the way back stands beside the way on.
-    readonly property bool paired: refuses && back.wish + Theme.gap + go.wish <= width
+    // Where there are too many for one row: whether the way back stands beside the way on, and leaves the other one as much
+    // width if both are alike.
+    readonly property bool paired: refuses && back.wish + Theme.gap + Math.max(go.wish, even && fills ? no.wish : 0) <= width
+    readonly property real rest: paired && returns ? width - back.width - Theme.gap : width
     readonly property real second: refuses && !beside ? no.height + step : 0
 
     height: beside ? tallest : (goes ? go.height : 0) + second + (returns && !paired ? back.height + step : 0)
@@ -76,7 +78,7 @@ FocusScope {
         most: ways.width
         width: ways.level ? ways.share : ways.stacked ? ways.pile
              : !ways.fills || ways.beside && ways.refuses ? Math.min(wish, most)
-             : (ways.beside || ways.paired) && ways.returns ? ways.width - back.width - Theme.gap : ways.width
+             : ways.beside && ways.returns ? ways.width - back.width - Theme.gap : ways.rest
         x: Theme.across(ways.width - width, width, ways.width)
         // Where the other one has two lines, both grow up and down, and the row stays where it is.
         y: ways.level ? (ways.tallest - height) / 2 : ways.second
@@ -100,11 +102,11 @@ FocusScope {
         most: ways.width
         width: ways.level ? ways.share : ways.stacked ? ways.pile
              : !ways.fills || !ways.returns && !ways.even ? Math.min(wish, most)
-             : ways.beside ? ways.width - go.width - back.width - 2 * Theme.gap : ways.width
+             : ways.beside ? ways.width - go.width - back.width - 2 * Theme.gap : ways.even ? ways.rest : ways.width
         x: Theme.across(ways.width - width - (ways.beside ? go.width + Theme.gap : 0), width, ways.width)
         y: ways.level ? go.y : 0
         height: ways.even ? go.height : implicitHeight
-        quiet: true
+        quiet: !ways.even || ways.quiet
         horizontalPadding: (ways.even && ways.fills ? 28 : 44) * Theme.unit
         // Two lines need less air above and below them.
         verticalPadding: (ways.level && wish > ways.spread ? 10 : 26) * Theme.unit
