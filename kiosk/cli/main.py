@@ -31,7 +31,7 @@ _GROUPS = {
     "Run a booth": {
         "run": ("kiosk.cli.run:run_command", "Open the kiosk for visitors."),
         "open-day": ("kiosk.cli.open_day:open_day_command", "Go through the morning checklist, then open the kiosk."),
-        "check": ("kiosk.cli.check_command:check_command", "Try everything that a booth needs, and say what to do."),
+        "check": ("kiosk.cli.status:check_command", "Try everything that a booth needs, and say what to do."),
         "rehearse": ("kiosk.cli.rehearse:rehearse", "Let simulated visitors go through sessions or a whole day."),
         "robot": ("kiosk.cli.devices:robot_command", "Try a robot step by step and show what it can do."),
         "watch": ("kiosk.cli.watch:watch_command", "Watch all booths that publish to an MQTT broker."),

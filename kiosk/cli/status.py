@@ -1,4 +1,7 @@
-"""The command that tells how the booth is now."""
+"""The commands `status` and `check`: how the booth is now, by its status file and by trying everything.
+
+They load little, so that their help and the status come at once.
+"""
 
 from __future__ import annotations
 
@@ -10,13 +13,16 @@ from pathlib import Path
 import click
 
 from kiosk import UserInputError
-from kiosk.cli.options import data_option, json_option
+from kiosk.cli.options import data_option, json_option, robot_host_option, robot_port_option, site_option, study_option
 from kiosk.cli.terminal import one_line
 from kiosk.experiment.booth_status import CLOSED, FILE, BoothStatus
 from kiosk.files import read_bytes
 
 NOT_ALIVE, TROUBLE = 3, 1
 """Exit codes of ``status``: no kiosk runs, or it hangs; it runs, and something is not well."""
+
+WATCH_S = 10
+"""Seconds between two looks of ``check --watch`` at the booth."""
 
 
 @click.command()
@@ -74,3 +80,38 @@ def _minutes(iso: str, now: datetime) -> str:
     minutes = (now - datetime.fromisoformat(iso)) // timedelta(minutes=1)
     hours, rest = divmod(minutes, 60)
     return f"{hours} h {rest} min" if hours else f"{minutes} min"
+
+
+@click.command()
+@data_option
+@study_option
+@site_option
+@robot_host_option
+@robot_port_option
+@click.option("--say", is_flag=True, help="Say a test sentence in every language, so that you hear the voice.")
+@click.option("--watch", is_flag=True, help=f"Check again every {WATCH_S} s until Ctrl+C, and say what has changed.")
+@json_option
+@click.pass_context
+def check_command(
+    context: click.Context,
+    data: Path,
+    study: Path | None,
+    site: str,
+    robot_host: str | None,
+    robot_port: int | None,
+    *,
+    say: bool,
+    watch: bool,
+    as_json: bool,
+) -> None:
+    """Try everything that a booth needs, and say what to do.
+
+    What fails comes first. The exit code is 1 if no session can be held. Nothing is shown or kept, and nothing is heard
+    without --say.
+    """
+    if watch and say:
+        raise click.UsageError("choose --watch or --say: a sentence every few seconds is no help")
+    from kiosk.cli.check import check_booth  # noqa: PLC0415 - it loads the whole kiosk
+
+    watch_s = WATCH_S if watch else None
+    context.exit(check_booth(data, study, site, robot_host, robot_port, say=say, watch_s=watch_s, as_json=as_json))

@@ -15,7 +15,7 @@ HEAVY = {
 }
 QUICK = (
     *("kiosk.cli.main", "kiosk.cli.guide", "kiosk.cli.run", "kiosk.cli.sessions", "kiosk.cli.status"),
-    *("kiosk.cli.check_command", "kiosk.ui.startup_splash"),
+    "kiosk.ui.startup_splash",
 )
 
 LATER = {"attr", "cattrs", "kiosk.experiment.session", "PySide6.QtDBus", "babel", "fluent", "http.client", "segno"}
