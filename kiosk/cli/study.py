@@ -412,7 +412,7 @@ def study_import(
     dictionaries (.csv), LimeSurvey (.txt) and Qualtrics (.qsf) are known. Each item that cannot be imported is named
     on a line.
     """
-    from kiosk.study.survey_import.reading import is_survey, read_survey
+    from kiosk.study.survey_import import is_survey, read_survey
 
     order = ItemOrder.SHUFFLED if shuffled else ItemOrder.FIXED
     heading = Heading(

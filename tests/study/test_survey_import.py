@@ -16,7 +16,7 @@ from kiosk.cli.main import recollect
 from kiosk.experiment.items import Integer, Likert, Multiple, Single, Slider
 from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
 from kiosk.study.csv_import import Heading, read_items
-from kiosk.study.survey_import.reading import is_survey, read_survey
+from kiosk.study.survey_import import is_survey, read_survey
 
 HEADING = Heading(id="asked", version="1", note="n")
 MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
