@@ -670,6 +670,8 @@ def test_the_back_of_the_avatar_stands_clear_and_still_whatever_is_answered(
         *(partial(screens.form.show_answer, item.id, 3) for item in items),
         turn,
     ]
+    if size is TextSize.NORMAL:
+        states.append(partial(screens.form.show_missing, tuple(item.id for item in items)))
     places = set()
     try:
         screens.kiosk.set_text_size(size)
@@ -682,6 +684,7 @@ def test_the_back_of_the_avatar_stands_clear_and_still_whatever_is_answered(
             back, on = find_item(ground, "turned-away"), find_item(ground, "continue")
             assert back is not None
             assert on is not None
+            assert find_item(ground, "more") is None
             words, upright = find_item(ground, "why-turned-away"), layout.width < layout.height
             places.add((whole(back).getRect(), None if words is None else whole(words).getRect()))
             apart = whole(back).top() - whole(on).bottom() if upright else whole(on).left() - whole(back).right()

@@ -51,7 +51,8 @@ Item {
     readonly property real leaves: lacks + (page.ample ? 2 * ((way.item as PointScale)?.inset ?? 0) : 0)
     readonly property real asks: told.height + leaves
     readonly property real addable: page.alone || beside ? 0 : (page.ample ? 48 : 32) * Theme.unit
-    readonly property real usualSpacing: page.alone ? 2 * Theme.gap : (page.dense ? 4 : page.ample ? Theme.textSize > 1 ? 18 : 36 : page.easy ? 18 : page.airy ? 22 : columned ? 12 : page.calm ? 14 : 8) * Theme.unit
+    // A word that it is missed, which stands there, takes some of it: four such cards still fit an upright page.
+    readonly property real usualSpacing: page.alone ? 2 * Theme.gap : (page.dense ? 4 : page.ample ? Theme.textSize > 1 ? 18 : missed ? 24 : 36 : page.easy ? 18 : page.airy ? 22 : columned ? 12 : page.calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
     readonly property real usualMargin: page.alone ? 0 : rows.own ? Math.max(10 * Theme.unit, rows.margin - taken / 2) : (beside ? page.dense ? 9 : 20 : page.dense ? 8 : page.tight ? 10 : page.ample ? 12 : page.easy ? inline ? 28 : 30 : page.airy ? 26 : columned ? inline ? ranged ? 16 : 8 : 16 : page.largeText ? 13 : 17) * Theme.unit
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
