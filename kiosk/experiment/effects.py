@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from enum import Enum
 
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import SessionEvent, TextSize, Timer
 from kiosk.experiment.information import ConsentPage, Page
 from kiosk.experiment.items import Response
-from kiosk.experiment.outcomes import NotRecordedReason
+from kiosk.experiment.outcomes import EmbodimentName, NotRecordedReason
 from kiosk.experiment.questionnaire import Item
 from kiosk.game import Position
 from kiosk.lazy_dataclass import dataclass

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any, TypeVar, get_args, get_type_hints
 
 from kiosk import UserInputError
 from kiosk.assistance.policy import ActionSpec, GateDecision, MoveOutcome, Phase, find_action
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import Event
 from kiosk.experiment.items import NOT_APPLICABLE, NotApplicable, Response
+from kiosk.experiment.outcomes import EmbodimentName
 from kiosk.game import Position
 
 if TYPE_CHECKING:

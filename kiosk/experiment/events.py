@@ -13,9 +13,8 @@ from typing import ClassVar
 from kiosk.assistance.memory_model import MemoryEstimate
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import ActionSpec, FlipInMove, GateDecision, MoveOutcome, Phase
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.items import Response
-from kiosk.experiment.outcomes import Stage, Status
+from kiosk.experiment.outcomes import EmbodimentName, Stage, Status
 from kiosk.game import FlipRejection, Position
 from kiosk.lazy_dataclass import dataclass
 

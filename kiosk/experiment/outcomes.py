@@ -1,11 +1,14 @@
-"""What a session is, how it came to its condition, how far it got, and how it ended.
+"""What a session is, how it came to its condition, who helped, how far it got and how it ended.
 
-The database holds these words. The module loads nothing else, so that a list of sessions is there at once.
+The database holds these words. The module loads little, so that a list of sessions is there at once.
 """
 
 from __future__ import annotations
 
 from enum import Enum, IntEnum
+from typing import ClassVar
+
+from kiosk.lazy_dataclass import dataclass
 
 CARDS_IN_A_MOVE = 2
 
@@ -35,6 +38,48 @@ class AllocationSource(Enum):
     """The list is used up."""
     RETURNING = "returning"
     """The participant was here before, and earlier visits decide; it takes no slot."""
+
+
+class EmbodimentKind(Enum):
+    """What helps with voice and face."""
+
+    AVATAR = "avatar"
+    ROBOT = "robot"
+
+
+@dataclass(frozen=True)
+class EmbodimentName:
+    """Who helps with voice and face: the avatar, or a robot by the name of its driver.
+
+    In the records it is the text ``avatar``, or ``robot:`` and the driver's name.
+    """
+
+    AVATAR: ClassVar[EmbodimentName]
+    kind: EmbodimentKind
+    driver: str = ""
+
+    @classmethod
+    def robot(cls, driver: str) -> EmbodimentName:
+        """Return the robot of a driver."""
+        return cls(EmbodimentKind.ROBOT, driver)
+
+    @classmethod
+    def from_text(cls, text: str) -> EmbodimentName:
+        """Return the name that a record holds; raises ValueError for anything else."""
+        kind, _, driver = text.partition(":")
+        return cls(EmbodimentKind(kind), driver)
+
+    def __post_init__(self) -> None:
+        """Refuse an avatar with a driver, and a robot without one."""
+        if bool(self.driver) != (self.kind is EmbodimentKind.ROBOT):
+            raise ValueError(f"{self.kind.value!r} with the driver {self.driver!r} is no embodiment")
+
+    def __str__(self) -> str:
+        """As it stands in the records."""
+        return f"{self.kind.value}:{self.driver}" if self.driver else self.kind.value
+
+
+EmbodimentName.AVATAR = EmbodimentName(EmbodimentKind.AVATAR)
 
 
 class Stage(Enum):

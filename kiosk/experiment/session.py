@@ -17,11 +17,10 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition, help_in
 from kiosk.experiment.effects import Effect, Mood, Outcome, OutcomeBuilder
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import Event, TextSize, Timer, WorldEvent
 from kiosk.experiment.game_stage import DealtTable, GameStage, HintGuide, MoveComments
 from kiosk.experiment.information import POINTER, RETURNING
-from kiosk.experiment.outcomes import NotRecordedReason, RecordingState, Stage, Status
+from kiosk.experiment.outcomes import EmbodimentName, NotRecordedReason, RecordingState, Stage, Status
 from kiosk.experiment.page_stages import (
     AgeStage,
     ConsentStage,

@@ -7,7 +7,6 @@ from dataclasses import replace
 from typing import TypeVar
 
 from kiosk.experiment.dealt_boards import OF_BOARDS, BoardsReader, DealtBoard
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import (
     AssistanceDecided,
     CardFlipped,
@@ -29,7 +28,7 @@ from kiosk.experiment.events import (
 )
 from kiosk.experiment.intervals import Interval
 from kiosk.experiment.item_responses import OF_RESPONSES, ItemResponse, ResponsesReader
-from kiosk.experiment.outcomes import Stage, Status
+from kiosk.experiment.outcomes import EmbodimentName, Stage, Status
 from kiosk.experiment.spoken_sentences import OF_SPEECH, SpeechReader, SpokenSentence
 from kiosk.lazy_dataclass import dataclass
 

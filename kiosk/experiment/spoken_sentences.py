@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from enum import Enum
 
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import (
     BoardUnlocked,
     CardFlipped,
@@ -25,7 +24,7 @@ from kiosk.experiment.events import (
     Timer,
     TimerExpired,
 )
-from kiosk.experiment.outcomes import Stage
+from kiosk.experiment.outcomes import EmbodimentName, Stage
 from kiosk.lazy_dataclass import dataclass, with_values
 
 _SPEECH_REQUESTS: frozenset[type[Event]] = frozenset({HintGiven, RemarkGiven, SentenceRequested, SentenceRepeated})

@@ -11,9 +11,8 @@ from typing import Any, Generic, TypeVar
 
 from kiosk.assistance.policy import FlipInMove, GateDecision
 from kiosk.config import KNOWN_CONDITIONS, ConditionConfig, Settings
-from kiosk.experiment.embodiment_name import EmbodimentKind
 from kiosk.experiment.labels import fold_name, read_as
-from kiosk.experiment.outcomes import SessionKind, Stage
+from kiosk.experiment.outcomes import EmbodimentKind, SessionKind, Stage
 from kiosk.extensions import ExtensionGroup, installed
 
 

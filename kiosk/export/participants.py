@@ -7,7 +7,6 @@ from collections.abc import Callable
 from functools import lru_cache
 from itertools import chain
 
-from kiosk.experiment.embodiment_name import EmbodimentKind
 from kiosk.experiment.events import (
     HOURS_IN_A_BAND,
     FallbackReason,
@@ -16,7 +15,7 @@ from kiosk.experiment.events import (
     SessionSetup,
 )
 from kiosk.experiment.labels import fold_name
-from kiosk.experiment.outcomes import AllocationSource, SessionKind, Stage, Status
+from kiosk.experiment.outcomes import AllocationSource, EmbodimentKind, SessionKind, Stage, Status
 from kiosk.export.columns import (
     EMBODIMENT,
     PARTICIPANT,

@@ -7,8 +7,8 @@ from dataclasses import dataclass, fields
 from functools import cached_property
 
 from kiosk.experiment.condition import AllocationSlot
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.item_responses import ItemResponse
+from kiosk.experiment.outcomes import EmbodimentName
 from kiosk.experiment.projections import Measures, ScaleScore, item_responses, measure_game
 from kiosk.experiment.session_state import SessionState
 from kiosk.export.columns import Cell, Column, ColumnKind, Variable

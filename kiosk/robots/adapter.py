@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 
 from kiosk.experiment.effects import Mood
-from kiosk.experiment.embodiment_name import EmbodimentName
+from kiosk.experiment.outcomes import EmbodimentName
 from kiosk.robots.driver import Capabilities, Capability, RobotDriver, RobotError, Utterance
 from kiosk.robots.embodiment import BoardPoint, Health, RobotListener
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Protocol
 
 from kiosk.experiment.effects import Mood
-from kiosk.experiment.embodiment_name import EmbodimentName
+from kiosk.experiment.outcomes import EmbodimentName
 from kiosk.lazy_dataclass import dataclass
 
 

@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping
 from typing import Protocol
 
 from kiosk.config import RobotConfig as RobotSettings
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import FallbackReason
+from kiosk.experiment.outcomes import EmbodimentName
 from kiosk.robots.adapter import AsyncRobotAdapter
 from kiosk.robots.embodiment import Embodiment, Health, MutableSpeech, SpeechListener
 

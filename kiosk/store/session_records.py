@@ -19,12 +19,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from kiosk import UserInputError
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.event_records import from_fields
 from kiosk.experiment.events import Event, SessionEnded, StageEntered
 from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent
 from kiosk.experiment.information import PUBLISHING
-from kiosk.experiment.outcomes import SessionKind, Stage, Status
+from kiosk.experiment.outcomes import EmbodimentName, SessionKind, Stage, Status
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.experiment.session_state import SessionState
 from kiosk.files import read_bytes, replace_file

@@ -17,9 +17,8 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtQuick import QQuickWindow
 
 from kiosk.config import MarkersConfig, Settings, VoiceConfig
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import SessionSetup
-from kiosk.experiment.outcomes import SessionKind
+from kiosk.experiment.outcomes import EmbodimentName, SessionKind
 from kiosk.robots.adapter import AsyncRobotAdapter
 from kiosk.robots.driver import RobotDriver
 from kiosk.robots.registry import create_robot

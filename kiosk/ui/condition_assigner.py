@@ -6,9 +6,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from kiosk.experiment.condition import AllocationSlot, Condition, condition_of_return
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.experimenter import AuditEvent
-from kiosk.experiment.outcomes import AllocationSource, SessionKind
+from kiosk.experiment.outcomes import AllocationSource, EmbodimentName, SessionKind
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.lazy_dataclass import dataclass
 from kiosk.store.participants import ReturningVisitor

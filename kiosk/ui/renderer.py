@@ -11,8 +11,8 @@ from typing import assert_never
 from kiosk.config import ASSETS
 from kiosk.experiment import effects as do
 from kiosk.experiment.effects import BoardWait, Effect, Mood
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import Timer
+from kiosk.experiment.outcomes import EmbodimentName
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.game import Position
 from kiosk.robots.embodiment import ASIDE, Embodiment

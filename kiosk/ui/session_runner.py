@@ -15,9 +15,8 @@ from kiosk import StorageError
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import Event, InputDevice, SessionSetup, Timer, WorldEvent
-from kiosk.experiment.outcomes import Stage
+from kiosk.experiment.outcomes import EmbodimentName, Stage
 from kiosk.experiment.transitions import InvalidTransition
 from kiosk.lazy_dataclass import dataclass
 from kiosk.robots.selector import EmbodimentSelector

@@ -17,7 +17,7 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.embodiment_name import EmbodimentName
+from kiosk.experiment.outcomes import EmbodimentName
 from kiosk.store.recorder import Recorder
 from kiosk.ui.app import App
 from kiosk.ui.rehearsal import Rehearsal

@@ -16,10 +16,9 @@ from kiosk.config import Game
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Effect, Outcome
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import Event, InputDevice, SessionEvent, Timer, WorldEvent
 from kiosk.experiment.items import Answer, Integer, Multiple, Rating, Response, Single, TextPage
-from kiosk.experiment.outcomes import Stage
+from kiosk.experiment.outcomes import EmbodimentName, Stage
 from kiosk.experiment.questionnaire import Item
 from kiosk.experiment.session import Session
 from kiosk.experiment.session_config import SessionConfig

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from kiosk.experiment import events as happened
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import Timer, WorldEvent
+from kiosk.experiment.outcomes import EmbodimentName
 from kiosk.game import Position
 
 EXAMPLES: dict[type[WorldEvent], WorldEvent] = {

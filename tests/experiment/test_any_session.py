@@ -14,10 +14,9 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import CONDITIONS, Condition
 from kiosk.experiment.effects import BoardWait, Outcome
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import Timer, WorldEvent
 from kiosk.experiment.items import TextPage
-from kiosk.experiment.outcomes import RecordingState, Stage, Status
+from kiosk.experiment.outcomes import EmbodimentName, RecordingState, Stage, Status
 from kiosk.experiment.session import Session
 from kiosk.experiment.transitions import BEFORE_DECIDING, InvalidTransition
 from kiosk.game import Position

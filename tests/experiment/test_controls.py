@@ -7,9 +7,8 @@ import pytest
 from kiosk.assistance.policy import ActionSpec
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import TextSize, Timer
-from kiosk.experiment.outcomes import Stage, Status
+from kiosk.experiment.outcomes import EmbodimentName, Stage, Status
 from kiosk.experiment.session_state import SessionState, language_before_flip
 from kiosk.experiment.transitions import InvalidTransition
 from tests.experiment.driver import Driver, Voice, driven_to

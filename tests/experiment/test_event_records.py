@@ -14,11 +14,10 @@ from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import ACTIONS, ActionSpec, FlipInMove, GateDecision, MoveOutcome, Phase
 from kiosk.experiment import event_records
 from kiosk.experiment import events as happened
-from kiosk.experiment.embodiment_name import EmbodimentKind, EmbodimentName
 from kiosk.experiment.event_records import from_record, to_record
 from kiosk.experiment.events import Event, PracticeEnd, SessionEvent, Timer, WorldEvent
 from kiosk.experiment.items import Answer
-from kiosk.experiment.outcomes import NotRecordedReason, Stage, Status
+from kiosk.experiment.outcomes import EmbodimentKind, EmbodimentName, NotRecordedReason, Stage, Status
 from kiosk.game import FlipRejection, Position
 from tests.experiment.driver import Driver, with_memory
 from tests.samples import whole

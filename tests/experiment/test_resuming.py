@@ -12,9 +12,8 @@ from hypothesis import strategies as st
 from kiosk.config import STAGES, Game, Practice
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import Timer, WorldEvent
-from kiosk.experiment.outcomes import RecordingState, Stage, Status
+from kiosk.experiment.outcomes import EmbodimentName, RecordingState, Stage, Status
 from kiosk.experiment.questionnaire import ItemOrder
 from kiosk.experiment.session import Session
 from kiosk.experiment.session_config import SessionConfig

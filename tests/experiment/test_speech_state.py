@@ -9,9 +9,8 @@ from kiosk.config import Game
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import Timer
-from kiosk.experiment.outcomes import Stage, Status
+from kiosk.experiment.outcomes import EmbodimentName, Stage, Status
 from kiosk.experiment.session_state import SessionState
 from kiosk.experiment.transitions import InvalidTransition
 from tests.experiment.driver import SPEECH_TIME, Driver, Voice, driven_to, replay, with_memory

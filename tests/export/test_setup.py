@@ -11,11 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.event_records import from_record, to_record
 from kiosk.experiment.events import FallbackReason, InputDevice, SessionSetup, SessionStarted
 from kiosk.experiment.experimenter import AuditEvent, DeviationReason
-from kiosk.experiment.outcomes import SessionKind, Stage
+from kiosk.experiment.outcomes import EmbodimentName, SessionKind, Stage
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import PsychDs

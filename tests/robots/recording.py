@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar
 
 from kiosk.experiment.effects import Mood
-from kiosk.experiment.embodiment_name import EmbodimentName
+from kiosk.experiment.outcomes import EmbodimentName
 from kiosk.robots.adapter import AsyncRobotAdapter
 from kiosk.robots.driver import Capabilities, Capability, RobotDriver, RobotVoice, Utterance
 from kiosk.robots.embodiment import BoardPoint, Health

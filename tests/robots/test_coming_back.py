@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from kiosk.config import RobotConfig as RobotSettings
-from kiosk.experiment.embodiment_name import EmbodimentName
+from kiosk.experiment.outcomes import EmbodimentName
 from kiosk.robots.adapter import AsyncRobotAdapter
 from kiosk.robots.driver import FailureKind, RobotDriver, RobotError
 from kiosk.robots.furhat import Furhat

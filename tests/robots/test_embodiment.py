@@ -10,7 +10,7 @@ import pytest
 
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
-from kiosk.experiment.embodiment_name import EmbodimentName
+from kiosk.experiment.outcomes import EmbodimentName
 from kiosk.robots.adapter import AsyncRobotAdapter
 from kiosk.robots.driver import FailureKind, RobotError, Utterance
 from kiosk.robots.selector import EmbodimentSelector

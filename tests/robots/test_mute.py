@@ -6,7 +6,7 @@ from functools import partial
 
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
-from kiosk.experiment.embodiment_name import EmbodimentName
+from kiosk.experiment.outcomes import EmbodimentName
 from kiosk.robots.adapter import AsyncRobotAdapter
 from kiosk.robots.embodiment import WHY
 from kiosk.robots.selector import EmbodimentSelector

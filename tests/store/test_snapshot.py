@@ -9,10 +9,9 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.experiment import events as happened
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import Event
 from kiosk.experiment.experimenter import AuditEvent
-from kiosk.experiment.outcomes import SessionKind, Stage, Status
+from kiosk.experiment.outcomes import EmbodimentName, SessionKind, Stage, Status
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.snapshot import LAST, last_written_ms, read_snapshot, wrong_pins
 from tests.samples import whole

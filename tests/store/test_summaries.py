@@ -12,8 +12,7 @@ import pytest
 
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.embodiment_name import EmbodimentName
-from kiosk.experiment.outcomes import AllocationSource, Disposition, SessionKind, Stage, Status
+from kiosk.experiment.outcomes import AllocationSource, Disposition, EmbodimentName, SessionKind, Stage, Status
 from kiosk.experiment.projections import measure
 from kiosk.store.allocation import AllocationLists
 from kiosk.store.database import FILE

@@ -16,9 +16,8 @@ from pytestqt.qtbot import QtBot
 from kiosk.config import ASSETS, Settings
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import InputDevice, WorldEvent
-from kiosk.experiment.outcomes import Stage
+from kiosk.experiment.outcomes import EmbodimentName, Stage
 from kiosk.store.queries import open_repository
 from kiosk.ui.event_loop import VirtualClock
 from tests.ui.conftest import Booth, MakeBooth, shared_booth

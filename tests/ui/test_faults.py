@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.config import Settings
 from kiosk.experiment import events as happened
-from kiosk.experiment.embodiment_name import EmbodimentName
+from kiosk.experiment.outcomes import EmbodimentName
 from kiosk.robots.driver import SpokenClip
 from kiosk.robots.voice_packs import PackClips
 from kiosk.store.database import open_for_reading

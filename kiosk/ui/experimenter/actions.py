@@ -13,9 +13,8 @@ from kiosk import StorageError, UserInputError
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.experimenter import Action, ActionEffect, AuditEvent, DeviationReason, condition_cycle, permission
-from kiosk.experiment.outcomes import Stage
+from kiosk.experiment.outcomes import EmbodimentName, Stage
 from kiosk.experiment.transitions import InvalidTransition
 from kiosk.lazy_dataclass import dataclass
 from kiosk.robots.embodiment import Health

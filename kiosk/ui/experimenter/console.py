@@ -14,10 +14,9 @@ from PySide6.QtQuick import QQuickWindow
 from kiosk import UserInputError, __version__
 from kiosk.experiment.alarms import BoothSigns
 from kiosk.experiment.booth_status import BoothStatus, DayCounts, utc
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import PauseEnded
 from kiosk.experiment.experimenter import AuditEvent, shortcuts
-from kiosk.experiment.outcomes import SessionKind
+from kiosk.experiment.outcomes import EmbodimentName, SessionKind
 from kiosk.sd_notify import BEAT_WITHIN
 from kiosk.store.snapshot import (
     DashboardSnapshot,

@@ -8,10 +8,9 @@ from datetime import datetime
 
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment.alarms import Alarm
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import PauseEnded
 from kiosk.experiment.experimenter import Action, ActionEffect, AuditEvent, permission, shortcuts
-from kiosk.experiment.outcomes import Stage
+from kiosk.experiment.outcomes import EmbodimentName, Stage
 from kiosk.store.snapshot import DashboardSnapshot
 from kiosk.ui.event_loop import TimerWait
 from kiosk.ui.experimenter.actions import AUTOMATIC, LOUDNESS, ActionController, Services

@@ -9,7 +9,7 @@ from PySide6.QtQml import QmlElement
 
 from kiosk.config import Side
 from kiosk.experiment.effects import Mood
-from kiosk.experiment.embodiment_name import EmbodimentName
+from kiosk.experiment.outcomes import EmbodimentName
 from kiosk.robots import LOUDNESS_MS
 from kiosk.robots.embodiment import BoardPoint, Health, SpeechListener
 from kiosk.ui.voice import Voice

@@ -11,11 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kiosk.experiment import events as happened
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import Event
 from kiosk.experiment.item_responses import ItemResponse, effective_answer
 from kiosk.experiment.items import Answer, Multiple, ShortText, TextPage
-from kiosk.experiment.outcomes import Stage, Status
+from kiosk.experiment.outcomes import EmbodimentName, Stage, Status
 from kiosk.experiment.projections import item_responses
 from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
 from kiosk.experiment.session_state import SessionState

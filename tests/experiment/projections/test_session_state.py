@@ -7,10 +7,9 @@ from dataclasses import replace
 import pytest
 
 from kiosk.experiment import events as happened
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import Event, InputDevice
 from kiosk.experiment.intervals import Interval
-from kiosk.experiment.outcomes import Stage, Status
+from kiosk.experiment.outcomes import EmbodimentName, Stage, Status
 from kiosk.experiment.session_state import SessionState, StageVisit
 from tests.experiment.driver import Driver, driven_to
 from tests.samples import INFORMATION, whole

@@ -11,9 +11,8 @@ from kiosk.assistance.policy import ActionSpec
 from kiosk.config import Game
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.events import Event, Timer
-from kiosk.experiment.outcomes import Stage
+from kiosk.experiment.outcomes import EmbodimentName, Stage
 from kiosk.experiment.projections import SpeechCounts, count_speech
 from kiosk.experiment.session_state import SessionState
 from kiosk.experiment.spoken_sentences import SentencePurpose, SpeechAttempt

@@ -11,9 +11,8 @@ from PySide6.QtGui import QGuiApplication, QKeyEvent
 from kiosk.config import STAGES, Keys
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.embodiment_name import EmbodimentName
 from kiosk.experiment.experimenter import Action, ActionEffect, Authorisation, permission
-from kiosk.experiment.outcomes import Stage
+from kiosk.experiment.outcomes import EmbodimentName, Stage
 from kiosk.ui.experimenter.view_model import AuthorisationStep
 from tests.robots.recording import RobotFake
 from tests.ui.experimenter.conftest import Desk, MakeDesk, Witness
