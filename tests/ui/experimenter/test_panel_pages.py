@@ -244,3 +244,59 @@ def test_the_way_out_is_outlined_and_its_ring_lies_on_its_edge(window: Window) -
     (ring,) = (item for item in of_kind(window, "FocusRing") if lies_in(item, "PanelView"))
     assert not close.property("solid")
     assert (ring.mapToScene(QPointF()), ring.size()) == (close.mapToScene(QPointF()), close.size())
+
+
+def calm_day(language: str) -> dict[str, Any]:
+    """Return what the panel shows of a day without a list, a target or a visitor, on which all is well."""
+    busy = busy_day(language)
+    cell = {"name": "A", "listed": False, "done": "1", "share": 0, "counts": ["0", "0", "0", "0"]}
+    return {
+        "health": busy["health"] | {"matters": []},
+        "today": busy["today"] | {"tiles": busy["today"]["tiles"][:3]},
+        "records": busy["records"] | {"listed": False, "cells": [cell], "sessions": busy["records"]["sessions"][:1]},
+        "choices": busy["choices"] | {"underWay": False, "session": ""},
+    }
+
+
+@pytest.mark.parametrize("language", sorted(CATALOGUES))
+@pytest.mark.parametrize("size", LAYOUTS)
+def test_letters_are_large_where_the_page_has_the_room(window: Window, language: str, size: tuple[int, int]) -> None:
+    show(window, language, size, **calm_day(language))
+    (today,) = of_kind(window, "PanelToday")
+    unit = min(size) / 1080 if size in (WIDE, UPRIGHT) else size[0] / 1920
+    drawn = {text.property("font").pixelSize() for text in texts(today) if lies_in(text, "PanelCell")}
+    assert min(drawn) >= int(29 * unit)
+    (stage,) = [text for text in texts(today) if words_of(text) == CATALOGUES[language].text("console-stage-game")][:1]
+    assert stage.property("font").pixelSize() >= int(56 * unit)
+    assert today.height() <= today.property("seen")
+
+
+@pytest.mark.parametrize("language", sorted(CATALOGUES))
+@pytest.mark.parametrize("size", LAYOUTS)
+@pytest.mark.parametrize("many", [1, 2, 3, 4, 6])
+def test_larger_letters_never_make_the_page_scroll(
+    window: Window, language: str, size: tuple[int, int], many: int
+) -> None:
+    calm, busy = calm_day(language), busy_day(language)
+    sessions = [busy["records"]["sessions"][0], *[busy["records"]["sessions"][1]] * (many - 1)]
+    for parts in (calm, busy, calm | {"health": busy["health"]}, busy | {"health": calm["health"]}):
+        show(window, language, size, **parts | {"records": parts["records"] | {"sessions": sessions}})
+        (today,) = of_kind(window, "PanelToday")
+        if today.property("size") > today.property("usual"):
+            assert today.height() <= today.property("seen")
+
+
+@pytest.mark.parametrize("language", sorted(CATALOGUES))
+@pytest.mark.parametrize("text_size", [1.0, 1.15])
+@pytest.mark.parametrize("size", LAYOUTS)
+def test_warnings_in_two_columns_have_one_line_each(
+    window: Window, language: str, text_size: float, size: tuple[int, int]
+) -> None:
+    calm, matters = calm_day(language), busy_day(language)["health"]["matters"]
+    for shown in (matters[:1], matters[1:], matters):
+        show(window, language, size, text_size, **calm | {"health": calm["health"] | {"matters": shown}})
+        (notice,) = of_kind(window, "PanelNotice")
+        told = [text for text in texts(notice) if text.isVisible()]
+        assert len(told) == 2 * len(shown)
+        if notice.property("beside"):
+            assert {text.property("lineCount") for text in told} == {1}

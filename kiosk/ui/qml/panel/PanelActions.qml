@@ -37,7 +37,23 @@ PanelSection {
     readonly property real tall: Math.floor(Math.max(lowest + spread, Math.min(128 * Theme.unit, share)))
     readonly property real mainTall: Math.floor((wide ? 1.25 : 1.1) * tall)
 
+    // What stands above buttons is not larger than their words.
+    readonly property real label: normal ? Math.min(size, lettering) : size
     readonly property real lettering: (normal ? wide ? 1.2 : 1.1 : 1) * Theme.dense
+
+    // How high it is at least if what stands above its buttons is written so large.
+    function deep(size: real): real {
+        const tall = Math.ceil(letters.height * size / 100)
+        const lines = text => Math.ceil(1.1 * letters.advanceWidth(text) * size / 100 / lower.each - 0.1)
+        const asked = breaks.visible ? tall * lines(breaks.title) + breaks.spacing : 0
+        const parted = underWay && !lower.halves ? line.height + tall * lines(then.text) + 2 * end.spacing : 0
+        const rows = wide ? others + 1.25 * mains : actions.lines
+        return Math.ceil(1.12 * tall) + 1.3 * Theme.gap + inset + rows * lowest + ((wide ? others + mains : rows) - 1) * space + lower.topPadding + asked + parted
+    }
+    FontMetrics {
+        id: letters
+        font.pixelSize: 100
+    }
 
     title: words["console-actions"]
     apart: (wide ? 12 : full ? 14 : 18) * Theme.unit
@@ -152,7 +168,7 @@ PanelSection {
             across: actions.wide && options.length > 3 ? 2 : options.length
             between: actions.space
             least: actions.tall
-            size: actions.size
+            size: actions.label
             crown: lower.halves ? then.implicitHeight : 0
             lettering: actions.lettering
             title: actions.words["console-break"]
@@ -183,7 +199,7 @@ PanelSection {
                 height: Math.max(implicitHeight, lower.halves ? breaks.heading : 0)
                 verticalAlignment: Text.AlignBottom
                 text: actions.words["console-abort-then"]
-                font.pixelSize: actions.size
+                font.pixelSize: actions.label
                 color: Theme.faintInk
                 horizontalAlignment: Text.AlignLeft
                 wrapMode: Text.Wrap

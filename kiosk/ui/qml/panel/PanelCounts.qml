@@ -11,8 +11,18 @@ PanelTable {
     required property bool named
     signal asked()
 
-    // What its last sentence takes.
+    // Whether the page has room for larger letters: its last sentence is as large as the rest then, if it has one line.
+    property bool roomy: false
+    // What that takes.
     readonly property real last: visits.height
+
+    function fitted(size: real, width: real): real {
+        return roomy && letters.advanceWidth(records.visits) * size / 100 <= width - 2 * inset ? size : Math.max(Theme.denser, 0.94 * size)
+    }
+    FontMetrics {
+        id: letters
+        font.pixelSize: 100
+    }
     // There are as many columns of numbers as there is something for.
     readonly property list<string> columns: ["dropped", "overridden", "beyond", "withdrawn"]
     readonly property var told: columns.filter(column => records.listed || column !== "beyond")
@@ -53,7 +63,7 @@ PanelTable {
         width: parent.width
         text: counts.records.visits
         horizontalAlignment: Text.AlignLeft
-        font.pixelSize: Math.max(Theme.denser, 0.94 * counts.size)
+        font.pixelSize: counts.fitted(counts.size, counts.width)
         color: Theme.faintInk
         wrapMode: Text.Wrap
         // At the foot of a card that ends level with one beside it.

@@ -13,17 +13,18 @@ Rectangle {
     readonly property var tiles: panel.today.tiles
     readonly property var stage: tiles.find(each => each.name === "stage")
     required property real size
-    readonly property real figure: Theme.dense * (Theme.upright ? 1.8 : 2.1)
+    // How large the stage is written, and the numbers beside it.
+    required property real figure
+    readonly property real number: Theme.dense * (Theme.upright ? 1.8 : 2.1)
     readonly property real inset: Math.round(1.1 * Theme.gap)
     readonly property real room: width - 2 * inset
     // What each needs for one line of everything; the last line can be two.
     readonly property string session: panel.choices.underWay ? panel.choices.session : ""
-    readonly property real stateNeed: Math.max(least(stage, plain.font), session === "" ? told(stage?.line, plain.font) : Math.max(1.22 * told(session, plain.font), valueOf(stage, bold.font) + 0.7 * size + told(stage?.line, plain.font)))
-    readonly property var needs: numbers.shown.map(tile => Math.max(least(tile, plain.font), told(tile.line, plain.font)))
-    readonly property var leasts: numbers.shown.map(tile => least(tile, plain.font))
-    readonly property real steps: Math.max(0, needs.length - 1) * numbers.spacing
-    readonly property real first: stateNeed + 1.2 * Theme.gap
-    readonly property bool wide: first + sum(leasts) + steps <= room && (!Theme.upright || first + sum(needs) + steps <= room)
+    readonly property var needs: numbers.shown.map(tile => need(tile, size))
+    readonly property var leasts: numbers.shown.map(tile => least(tile, number, size))
+    readonly property real steps: Math.max(0, numbers.shown.length - 1) * numbers.spacing
+    readonly property real first: before(size, figure)
+    readonly property bool wide: besides(size, figure)
     // Where the numbers begin: beside what is going on, or below it.
     readonly property real from: wide ? Math.max(first, Math.min(split, room - sum(needs) - steps)) : 0
     readonly property var widths: {
@@ -35,23 +36,43 @@ Rectangle {
     function sum(all: var): real {
         return all.reduce((total, each) => total + each, 0)
     }
-    // What is measured depends on the font, which is named for that reason alone.
-    function told(text: var, _font: font): real {
-        return Math.ceil(plain.advanceWidth(text ?? "")) + 2 * Theme.unit
+    // Letters are drawn in whole pixels.
+    function told(text: var, size: real): real {
+        return Math.ceil(plain.advanceWidth(text ?? "") * Math.round(size) / 100) + 2 * Theme.unit
     }
-    function valueOf(tile: var, _font: font): real {
-        return Math.ceil(bold.advanceWidth(tile?.value ?? "")) + 2 * Theme.unit
+    function valueOf(tile: var, figure: real): real {
+        return Math.ceil(bold.advanceWidth(tile?.value ?? "") * Math.round(figure) / 100) + 2 * Theme.unit
     }
-    function least(tile: var, font: font): real {
-        return Math.max(valueOf(tile, bold.font), told(tile?.title, font))
+    function least(tile: var, figure: real, size: real): real {
+        return Math.max(valueOf(tile, figure), told(tile?.title, size))
+    }
+    function need(tile: var, size: real): real {
+        return Math.max(least(tile, number, size), told(tile.line, size))
+    }
+    // What the stage takes of a line beside the numbers.
+    function before(size: real, figure: real): real {
+        const line = told(stage?.line, size)
+        return Math.max(least(stage, figure, size), session === "" ? line : Math.max(told(session, 1.22 * size), valueOf(stage, figure) + 0.7 * size + line)) + 1.2 * Theme.gap
+    }
+    function besides(size: real, figure: real): bool {
+        const free = room - before(size, figure) - steps
+        return sum(numbers.shown.map(tile => least(tile, number, size))) <= free && (!Theme.upright || sum(numbers.shown.map(tile => need(tile, size))) <= free)
+    }
+    // Whether nothing wraps if it is written so large, and how high it is then.
+    function holds(size: real, figure: real): bool {
+        return sum(numbers.shown.map(tile => need(tile, size))) + steps <= room - (besides(size, figure) ? before(size, figure) : 0)
+    }
+    function deep(size: real, figure: real): real {
+        const lines = number => Math.ceil(plain.height * size / 100) * 2 + Math.ceil(plain.height * number / 100)
+        return 1.3 * Theme.gap + lines(figure) + (session === "" ? 0 : Math.ceil(0.22 * plain.height * size / 100)) + (besides(size, figure) ? 0 : inset + lines(number))
     }
     FontMetrics {
         id: plain
-        font.pixelSize: now.size
+        font.pixelSize: 100
     }
     FontMetrics {
         id: bold
-        font { pixelSize: now.figure; bold: true }
+        font { pixelSize: 100; bold: true }
     }
 
     height: numbers.y + numbers.height + 0.7 * Theme.gap
@@ -96,7 +117,9 @@ Rectangle {
                 objectName: "today-" + modelData.name
                 width: now.widths[index] ?? 0
                 height: implicitHeight
-                size: now.figure
+                size: now.number
+                // Its line is level with that of the stage.
+                crown: now.wide ? now.figure : 0
                 lettering: now.size
                 title: modelData.title
                 value: modelData.value

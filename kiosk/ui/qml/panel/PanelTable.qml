@@ -13,7 +13,7 @@ PanelSection {
     readonly property var rows: shown.rows
     property bool marked: false
     // Of the bar before the words of a cell that tells a share.
-    readonly property real bar: 2.8 * size
+    readonly property real bar: barred(size)
     // A table with as many columns whose columns begin at the same places.
     property PanelTable like: null
     readonly property bool alike: like !== null && like.visible && like.heads.length === heads.length
@@ -23,7 +23,7 @@ PanelSection {
     readonly property real room: width - 2 * inset
     readonly property real free: room - (heads.length - 1) * step
     // What each column needs where its cells have one line, two or three, and for its longest word.
-    readonly property var own: [1, 2, 3, 99].map(most => needs(most))
+    readonly property var own: [1, 2, 3, 99].map(most => needs(most, size))
     readonly property var shared: own.map((widths, at) => alike ? widths.map((each, column) => Math.max(each, like.own[at][column] ?? 0)) : widths)
     // Not where that breaks words of one that would stand in single lines by itself.
     readonly property var all: sum(shared[0]) <= free || sum(own[0]) > free && (!alike || sum(like.own[0]) > free) ? shared : own
@@ -95,10 +95,18 @@ PanelSection {
         }
         return most
     }
-    function needs(lines: int): var {
+    function barred(size: real): real {
+        return 2.8 * size
+    }
+    function needs(lines: int, size: real): var {
         return titles.map((title, at) => Math.ceil(2 + 2 * Theme.unit + (marked && at === 0 ? 1.4 * size : 0) + Math.max(
             narrow(title, lines) * size / 100,
-            ...shown.rows.map(row => (row.cells[at].share === undefined ? 0 : bar) + narrow(row.cells[at], lines) * size / 100))))
+            ...shown.rows.map(row => (row.cells[at].share === undefined ? 0 : barred(size)) + narrow(row.cells[at], lines) * size / 100))))
+    }
+    // Whether all its cells have one line if they are written so large on a card so wide. Small letters are a little wider
+    // than large ones made smaller.
+    function holds(size: real, width: real): bool {
+        return 1.03 * sum(needs(1, size)) + (heads.length - 1) * 0.8 * size <= width - 2 * inset
     }
     FontMetrics {
         id: bold

@@ -13,12 +13,22 @@ Item {
     property string first: ""
     // How large the number is.
     property real size: Theme.dense * 1.6
+    // That of one beside it, if that is larger.
+    property real crown: 0
     property real lettering: Theme.dense
 
     implicitHeight: content.height
     Accessible.role: Accessible.Grouping
     Accessible.name: title
 
+    FontMetrics {
+        id: crowned
+        font { pixelSize: Math.max(tile.size, tile.crown); bold: true }
+    }
+    FontMetrics {
+        id: own
+        font { pixelSize: tile.size; bold: true }
+    }
     Column {
         id: content
         width: parent.width
@@ -32,6 +42,9 @@ Item {
         PlainText {
             id: value
             width: parent.width
+            height: tile.crown > tile.size ? Math.max(implicitHeight, Math.ceil(crowned.height)) : implicitHeight
+            verticalAlignment: Text.AlignBottom
+            bottomPadding: Math.max(0, crowned.descent - own.descent)
             text: tile.value
             font { pixelSize: tile.size; bold: true }
             color: Theme.ink

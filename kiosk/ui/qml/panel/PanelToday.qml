@@ -13,12 +13,17 @@ Item {
     // How much of it is seen at once.
     required property real seen
     readonly property var words: panel.words
-    readonly property real size: wide ? 1.15 * Theme.dense : Math.max(Theme.dense, 26 * Theme.textSize * Theme.unit)
+    // The letters are as large as goes, up to what is read well from where the experimenter stands, as long as nothing
+    // wraps and the page does not scroll for it. So is what goes on now. In whole pixels, as letters are drawn.
+    readonly property real usual: wide ? 1.15 * Theme.dense : Math.max(Theme.dense, 26 * Theme.textSize * Theme.unit)
+    readonly property var grown: !tabled || panel.alarms.length > 0 || panel.records.resumable.length > 0 ? undefined : [29, 28, 27, 26].map(each => Math.round(each * Theme.unit)).filter(each => each > Math.round(usual)).find(each => holds(each) && deep(each) <= seen)
+    readonly property real size: grown ?? usual
+    readonly property real figure: figured(grown !== undefined)
     // Whole pixels: a card at a fraction of one would lose its right edge.
     readonly property real side: Math.floor(wide ? width * 0.265 : width)
     readonly property real main: wide ? width - side - space : width
     // The checks have what their lines need, and the tables have the rest.
-    readonly property real half: Math.floor(!wide ? width : tabled && panel.alarms.length === 0 ? Math.max(0.3 * main, Math.min(0.36 * main, health.natural)) : 0.4 * main)
+    readonly property real half: halved(size)
 
     // Where what stands side by side begins, and where the status ends.
     readonly property real below: first.height + space
@@ -27,7 +32,7 @@ Item {
     readonly property real room: wide && panel.alarms.length === 0 ? Math.floor(seen - below) : 0
 
     // With few checks the sessions have the whole width below; otherwise they stand below the counts, beside the checks.
-    readonly property bool stacked: wide && tabled && health.visible && panel.alarms.length === 0 && health.deep <= panel.records.cells.length + 3
+    readonly property bool stacked: health.visible && stacks(size)
     readonly property real level: Math.max(health.wish, counts.wish)
 
     // What a wide screen has left is shared among the rows of the counts and of the sessions, and so is what it lacks.
@@ -49,14 +54,53 @@ Item {
     // On an upright screen all second columns begin in line.
     readonly property real gutter: Math.round(40 * Theme.unit)
 
+    function figured(grown: bool): real {
+        return Math.max(Theme.dense * (Theme.upright ? 1.8 : 2.1), grown ? 56 * Theme.unit : 0)
+    }
+    function warned(size: real): real {
+        return size > usual ? size : wide ? 1.12 * Theme.dense : Math.max(Theme.denser, 0.93 * usual)
+    }
+    function halved(size: real): real {
+        return Math.floor(!wide ? width : tabled && panel.alarms.length === 0 ? Math.max(0.3 * main, Math.min(0.36 * main, health.natural(size))) : 0.4 * main)
+    }
+    function stacks(size: real): bool {
+        return wide && tabled && panel.health.lines.length > 0 && panel.alarms.length === 0 && health.deep(size, halved(size)) <= panel.records.cells.length + 3
+    }
+    // Whether no number and no cell wraps if it is written so large.
+    function holds(size: real): bool {
+        const beside = wide ? main - halved(size) - space : width
+        return now.holds(size, figured(true)) && counts.holds(size, beside) && sessions.holds(size, stacks(size) ? main : beside)
+    }
+    // How high the page is then, at least.
+    function deep(size: real): real {
+        const line = Math.ceil(letters.height * size / 100)
+        const least = (wide ? 7 : 10) * Theme.unit
+        const headed = crown => Math.ceil(Math.max(1.12 * line, crown)) + 1.3 * Theme.gap + counts.inset
+        const crown = panel.records.cells.length > 0 ? Math.max(58 * Theme.unit, 0.95 * line + 18 * Theme.unit) : 0
+        const table = (rows, crown) => headed(crown) + (1 + Math.max(1, rows)) * line + (rows + 0.4) * least + 2 * Theme.unit
+        const checked = health.deep(size, halved(size))
+        const checks = checked > 0 ? headed(wide ? crown : 0) + checked * line + (checked - 1) * (stacks(size) ? least : 10 * Theme.unit) : 0
+        const counted = table(panel.records.cells.length, crown) + least + line
+        const listed = table(panel.records.sessions.length, 0)
+        const above = now.deep(size, figured(true)) + space + (panel.health.matters.length > 0 ? notice.deep(warned(size)) + space : 0)
+        const acting = actions.deep(size)
+        if (!wide)
+            return above + acting + checks + counted + listed + 3 * space
+        return Math.max(acting, above + (stacks(size) ? Math.max(checks, counted) + space + listed : Math.max(checks, counted + space + listed)))
+    }
+    FontMetrics {
+        id: letters
+        font.pixelSize: 100
+    }
+
     height: wide ? Math.max(right.height, left.y + left.height, sessions.y + sessions.height) : sessions.y + sessions.height
 
     Column {
         id: first
         width: today.main
         spacing: today.space
-        PanelNow { width: parent.width; panel: today.panel; size: today.size; split: today.wide ? today.half + today.space : Math.floor((room + today.gutter) / 2) }
-        PanelNotice { width: parent.width; size: Theme.upright ? Math.max(Theme.denser, 0.93 * today.size) : 1.12 * Theme.dense; panel: today.panel; visible: matters.length > 0 }
+        PanelNow { id: now; width: parent.width; panel: today.panel; size: today.size; figure: today.figure; split: today.wide ? today.half + today.space : Math.floor((room + today.gutter) / 2) }
+        PanelNotice { id: notice; width: parent.width; size: today.warned(today.size); usual: today.warned(today.usual); panel: today.panel; visible: matters.length > 0 }
     }
     Column {
         id: right
@@ -106,6 +150,7 @@ Item {
         words: today.words
         records: today.panel.records
         like: today.stacked ? null : sessions
+        roomy: today.size > today.usual
         named: today.panel.choices.named
         onAsked: today.panel.wish("names", "")
     }

@@ -152,7 +152,16 @@ FocusScope {
     Item {
         id: foot
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom; margins: view.edge; bottomMargin: view.space }
-        height: Math.max(keys.height, shortcuts.visible ? shortcuts.height : 0)
+        // What larger letters take beyond that comes from the margins.
+        height: Math.max(keys.height - Math.ceil(1.4 * (keys.font.pixelSize - usual)), shortcuts.visible ? shortcuts.height : 0)
+        // As large as the page above it, where it still has one line then.
+        readonly property real usual: (view.wide && Theme.textSize <= 1.15 ? 1.1 : 1) * Theme.dense
+        readonly property real large: Math.max(usual, 29 * Theme.unit)
+        readonly property real free: width - shortcuts.implicitWidth - Theme.gap
+        FontMetrics {
+            id: letters
+            font.pixelSize: 100
+        }
         Balanced {
             id: keys
             anchors { left: parent.left; right: shortcuts.visible ? shortcuts.left : parent.right; verticalCenter: parent.verticalCenter }
@@ -160,7 +169,7 @@ FocusScope {
             text: view.words["console-keys"]
             horizontalAlignment: Text.AlignLeft
             least: 0.75
-            font.pixelSize: (view.wide && Theme.textSize <= 1.15 ? 1.1 : 1) * Theme.dense
+            font.pixelSize: letters.advanceWidth(text) * foot.large / 100 <= foot.free ? foot.large : foot.usual
             color: Theme.faintInk
             wrapMode: Text.Wrap
         }
@@ -170,6 +179,8 @@ FocusScope {
             objectName: "panel-shortcuts"
             anchors { right: parent.right; verticalCenter: parent.verticalCenter }
             width: implicitWidth
+            // Lower than what is done all day.
+            least: 58 * Theme.unit
             visible: view.onToday && view.panel.shortcuts.rows.length > 0
             words: view.words["console-shortcuts"]
             horizontalPadding: 28 * Theme.unit
