@@ -59,20 +59,20 @@ class SpeechWriter:
         """Speak in these words; ``numbers`` go on through the whole session."""
         self._wording = wording
         self._numbers = numbers
-        self._last: tuple[str, dict[str, str | int]] | None = None
+        self._last: tuple[str, str, dict[str, str | int]] | None = None
 
     def say_again(self, outcome: OutcomeBuilder) -> None:
         """Say what was said last, in the present language."""
         if self._last is not None:
-            message, variables = self._last
-            self.say(message, outcome, **variables)
+            message, advice, variables = self._last
+            self.say(message, outcome, advice, **variables)
 
-    def say(self, message: str, outcome: OutcomeBuilder, **variables: str | int) -> None:
-        """Have one wording of the message said."""
-        self._last = (message, variables)
+    def say(self, message: str, outcome: OutcomeBuilder, advice: str = "", **variables: str | int) -> None:
+        """Have one wording of the message said; ``advice`` is the message at its end that the bubble shows apart."""
+        self._last = (message, advice, variables)
         sentence, number = self._wording.say(message, **variables), next(self._numbers)
         outcome.emit(happened.SentenceRequested(at_ms=outcome.at_ms, utterance=number, sentence=sentence))
-        outcome.effect(do.Speak(number, sentence))
+        outcome.effect(do.Speak(number, sentence, self._wording.catalogue.text(advice) if advice else ""))
 
     def repeat(self, said: do.Speak, outcome: OutcomeBuilder) -> None:
         """Have a sentence said once more."""

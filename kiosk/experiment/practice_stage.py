@@ -89,7 +89,7 @@ class PracticeStage(GameStage):
         outcome.effect(do.StartTimer(Timer.PRACTICE, self._longest_ms))
         # On a board so small that the first flip has a hint, the hint is what is said.
         if self._given is None:
-            self._speaker.say("practice-speech", outcome)
+            self._speaker.say("practice-speech", outcome, "practice-turn")
 
     def show_again(self, outcome: OutcomeBuilder) -> None:
         """Say the hint that stands, or what there is to do, in the present language."""

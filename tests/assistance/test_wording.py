@@ -149,6 +149,11 @@ def test_what_the_session_says_outside_the_game_can_be_said_in_two_ways(language
     assert len(set(language.wordings(message, moves=24, cards=24, pairs=12))) >= 2
 
 
+@in_every_language
+def test_every_wording_of_the_practice_s_speech_ends_with_what_to_do(language: Catalogue) -> None:
+    assert all(said.endswith(language.text("practice-turn")) for said in language.wordings("practice-speech"))
+
+
 def test_places_are_told_counted_from_one() -> None:
     assert place(hint(ActionSpec.SUG_CARD)) == {"row": 3, "column": 6}
     assert place(hint(ActionSpec.SUG_ROW)) == {"row": 3}

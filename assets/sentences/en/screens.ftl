@@ -82,9 +82,10 @@ introduction-continue = I am ready
 
 practice-title = Practice
 practice-skip = To the game
+practice-turn = Turn over any card.
 practice-speech =
-    .a = Turn over any card: let us practise first. Nothing counts yet, and you can go on to the game whenever you like.
-    .b = Turn over any card. This is a short practice: when you have had enough, go on to the game.
+    .a = Let us practise first: nothing counts yet, and you can go on to the game whenever you like. { practice-turn }
+    .b = This is a short practice: when you have had enough, go on to the game. { practice-turn }
 
 ## Game
 

@@ -83,9 +83,10 @@ introduction-continue = Empecemos
 
 practice-title = Práctica
 practice-skip = Ir al juego
+practice-turn = Da la vuelta a cualquier carta.
 practice-speech =
-    .a = Da la vuelta a cualquier carta: primero practicamos un poco. Todavía no cuenta nada, y puedes pasar al juego cuando quieras.
-    .b = Da la vuelta a cualquier carta. Es una breve práctica: cuando tengas bastante, pasa al juego.
+    .a = Primero practicamos un poco: todavía no cuenta nada, y puedes pasar al juego cuando quieras. { practice-turn }
+    .b = Es una breve práctica: cuando tengas bastante, pasa al juego. { practice-turn }
 
 ## Game
 

@@ -83,9 +83,10 @@ introduction-continue = Cominciamo
 
 practice-title = Prova
 practice-skip = Vai al gioco
+practice-turn = Scopri una carta qualsiasi.
 practice-speech =
-    .a = Scopri una carta qualsiasi: prima facciamo una prova. Non conta ancora nulla, e puoi passare al gioco quando vuoi.
-    .b = Scopri una carta qualsiasi. È una breve prova: quando ne hai abbastanza, passa al gioco.
+    .a = Prima facciamo una prova: non conta ancora nulla, e puoi passare al gioco quando vuoi. { practice-turn }
+    .b = È una breve prova: quando ne hai abbastanza, passa al gioco. { practice-turn }
 
 ## Game
 

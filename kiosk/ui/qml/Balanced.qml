@@ -8,11 +8,9 @@ PlainText {
 
     // How long the last line is to be at least, as a share of the longest.
     property real least: horizontalAlignment === Text.AlignHCenter ? 0.75 : 0.4
-    // Whether it has two lines even where one would do, to be as high as its neighbours.
-    property bool doubled: false
     // Qt does not always tell that the alignment in effect changes when a page becomes mirrored.
     readonly property bool fromLeft: LayoutMirroring.enabled ? horizontalAlignment === Text.AlignRight : effectiveHorizontalAlignment !== Text.AlignRight
-    readonly property real slack: width > 0 && wrapMode !== Text.NoWrap ? spare(text, width, doubled, letters.font) : 0
+    readonly property real slack: width > 0 && wrapMode !== Text.NoWrap ? spare(text, width, letters.font) : 0
 
     wrapMode: Text.Wrap
     leftPadding: effectiveHorizontalAlignment === Text.AlignHCenter ? slack / 2 : fromLeft ? 0 : slack
@@ -25,20 +23,13 @@ PlainText {
 
     // How much narrower the lines can be without one more, so that the last is long enough, or as long as it gets. What
     // is measured depends on the font, which is named for that reason alone.
-    function spare(text: string, room: real, doubled: bool, _font: font): real {
+    function spare(text: string, room: real, _font: font): real {
         const paragraphs = text.split("\n")
         const count = text.split(" ").length
-        const whole = Math.max(...paragraphs.map(each => letters.advanceWidth(each)))
-        if (count < 3 || count > 60 || whole <= room && (!doubled || paragraphs.length > 1))
+        if (count < 3 || count > 60 || paragraphs.every(each => letters.advanceWidth(each) <= room))
             return 0
         const gap = letters.advanceWidth(" ")
         const parts = paragraphs.map(each => each.split(" ").map(word => letters.advanceWidth(word)))
-        if (whole <= room) {
-            // The longer of two lines, where they differ least.
-            let ahead = -gap
-            const longer = parts[0].slice(0, -1).map(size => Math.max(ahead += gap + size, whole - ahead - gap))
-            return Math.max(0, room - Math.min(...longer) - 2)
-        }
         const widest = Math.max(...parts.map(sizes => Math.max(...sizes)))
         let most = 0, best = 0, narrow = room
         for (let tried = room; tried >= widest;) {

@@ -55,6 +55,12 @@ def test_the_board_is_open_while_it_is_explained() -> None:
     assert len(driver.view.up) == 1
 
 
+def test_its_first_sentence_ends_with_what_to_do_which_the_bubble_shows_apart() -> None:
+    (said,) = (each for each in practising().steps[-1].outcome.effects if isinstance(each, do.Speak))
+    assert said.advice == "Turn over any card."
+    assert said.sentence.endswith(f" {said.advice}")
+
+
 def test_nothing_is_decided_and_no_hint_is_given() -> None:
     driver = practising()
     driver.play(with_memory(1))

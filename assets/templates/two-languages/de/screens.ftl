@@ -82,9 +82,10 @@ introduction-continue = Ich bin bereit
 
 practice-title = Übung
 practice-skip = Zum Spiel
+practice-turn = Dreh irgendeine Karte um.
 practice-speech =
-    .a = Dreh irgendeine Karte um: Wir üben erst einmal. Noch zählt nichts, und du kannst zum Spiel weitergehen, wann du möchtest.
-    .b = Dreh irgendeine Karte um. Das ist eine kurze Übung: Wenn es dir reicht, geh weiter zum Spiel.
+    .a = Wir üben erst einmal: Noch zählt nichts, und du kannst zum Spiel weitergehen, wann du möchtest. { practice-turn }
+    .b = Das ist eine kurze Übung: Wenn es dir reicht, geh weiter zum Spiel. { practice-turn }
 
 ## Game
 

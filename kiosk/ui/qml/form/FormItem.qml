@@ -141,7 +141,6 @@ Item {
                 Balanced {
                     id: question
                     width: parent.width
-                    doubled: box.page.ample && Theme.textSize <= 1
                     text: box.item.shown
                     Accessible.name: box.item.text
                     font {
