@@ -1,6 +1,6 @@
 """Run benchmarks of tests/bench and write what they measured into the documentation.
 
-``python packaging/benchmarks.py`` takes about five minutes on a quiet machine with two processors; ``--sessions
+``python packaging/benchmarks.py`` takes some minutes on a quiet machine with two processors; ``--sessions
 5000,20000`` measures growth with other numbers of stored sessions. A time is the shortest of its rounds.
 """
 
@@ -18,7 +18,9 @@ import psutil
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs" / "reference" / "benchmarks.md"
 SESSIONS = "100,1000"
-BENCHES = ("tests/bench/test_growth.py", "tests/bench/test_training.py", "tests/bench/test_start.py")
+BENCHES = tuple(
+    f"tests/bench/test_{what}.py" for what in ("growth", "training", "start", "window", "store", "decision")
+)
 SHOWN = "not reference and not episodes"
 
 HEAD = """# Benchmarks
@@ -55,6 +57,14 @@ Each program is started in turns with a reference that does only what nothing co
 for the kiosk, and a click program that prints a word for the commands. Times are the middle ones of the rounds.
 
 """
+TAPS = """
+## Taps, records and frames
+
+Of each, the middle time, and the time that 99 of 100 keep below. One reference is a press on a square in a bare window.
+The other is a commit of the same bytes to a table without any key: both commits take turns, and the quicker quarter of
+each is compared. Windows have 1920 x 1080 pixels and are drawn without a graphics card.
+
+"""
 
 
 def measured(sessions: str) -> dict[str, Any]:
@@ -77,7 +87,8 @@ def page(told: dict[str, Any]) -> str:
     run = f"Measured on {told['datetime'][:10]}: {processor}, {os.cpu_count()} processors, "
     run += f"{platform.system()}, Python {machine['python_version']}. Load before the run: {told['load']:.1f}.\n"
     shortest = {bench["name"].removeprefix("test_"): bench["stats"]["min"] for bench in told["benchmarks"]}
-    return HEAD + run + _growth(shortest) + _games(shortest) + _table(shortest) + starts(told["benchmarks"])
+    rest = starts(told["benchmarks"]) + taps({bench["name"]: bench["extra_info"] for bench in told["benchmarks"]})
+    return HEAD + run + _growth(shortest) + _games(shortest) + _table(shortest) + rest
 
 
 def _growth(shortest: dict[str, float]) -> str:
@@ -142,6 +153,37 @@ def starts(benches: list[dict[str, Any]]) -> str:
             rows.append([what, *spent, *times])
     head = ["what", "processor time", "of the reference", "times", "times on the clock"]
     return STARTS + table(head, rows) + tap
+
+
+def taps(told: dict[str, dict[str, Any]]) -> str:
+    """Return the section about taps, records and frames; empty if one of their benchmarks was not run."""
+    named = {
+        "test_tap_to_first_changed_frame": "from a tap to the first changed frame",
+        "test_durable_event": "writing a tap and its flip to the disk",
+        "test_decision[tom]": "a decision with its hint and reason",
+        "test_decision[notom]": "the same without a reason",
+        "test_frame_time_while_cards_turn": "a frame while two cards turn",
+        "test_arrival_of_the_board": "from an empty table to the first picture of 24 cards",
+    }
+    if not named.keys() <= told.keys():
+        return ""
+    rows = {
+        what: [in_words(told[name][f"p{part}_us"] / 1e6) for part in (50, 99)] + ["", ""]
+        for name, what in named.items()
+    }
+    square = told["test_tap_to_first_changed_frame_of_one_square"]["p50_us"]
+    frame = told["test_tap_to_first_changed_frame"]["p50_us"]
+    bare = told["test_durable_event_beside_a_bare_commit"]
+    rows[named["test_tap_to_first_changed_frame"]][2:] = in_words(square / 1e6), f"{frame / square:.2f}"
+    rows[named["test_durable_event"]][2:] = in_words(bare["bare_p25_us"] / 1e6), f"{bare['ratio']:.2f}"
+    share = told["test_cost_of_the_start_screen"]["share of one core"]
+    return (
+        TAPS
+        + table(
+            ["what", "middle", "99 of 100", "of the reference", "times"], [[what, *row] for what, row in rows.items()]
+        )
+        + f"\nThe start screen, which plays by itself, takes {share:.1%} of one core.\n"
+    )
 
 
 def in_words(seconds: float) -> str:

@@ -26,3 +26,19 @@ def test_only_sessions_are_counted_as_sizes() -> None:
     assert "| listed (all) | 10 ms | 100 ms | 10.0 |" in page
     assert "| the same in two processes | 80,000 | 1.00 |" in page
     assert "| warm | 1.1 s |" in page
+
+
+def test_taps_are_told_beside_their_references() -> None:
+    percentiles = {"p50_us": 8000.0, "p99_us": 12_000.0}
+    names = ("tap_to_first_changed_frame", "durable_event", "decision[tom]", "decision[notom]")
+    told = {f"test_{name}": percentiles for name in (*names, "frame_time_while_cards_turn", "arrival_of_the_board")}
+    told["test_tap_to_first_changed_frame_of_one_square"] = {"p50_us": 10_000.0, "p99_us": 12_000.0}
+    told["test_durable_event_beside_a_bare_commit"] = {"bare_p25_us": 1000.0, "ours_p25_us": 1200.0, "ratio": 1.2}
+    told["test_cost_of_the_start_screen"] = {"share of one core": 0.025}
+    section = load("benchmarks").taps(told)
+    assert "| from a tap to the first changed frame | 8 ms | 12 ms | 10 ms | 0.80 |" in section
+    assert "| writing a tap and its flip to the disk | 8 ms | 12 ms | 1 ms | 1.20 |" in section
+    assert "| a frame while two cards turn | 8 ms | 12 ms |  |  |" in section
+    assert "takes 2.5% of one core" in section
+    told.pop("test_durable_event")
+    assert load("benchmarks").taps(told) == ""
