@@ -134,8 +134,8 @@ class App:
         undo.callback(self._loop.close)
         virtual = mode.pace is ClockMode.VIRTUAL
         self._start_threads(virtual=virtual)
-        runs_ahead = virtual or mode.speed != 1
-        now_ms = partial(_wall_ms_ahead, self.clock, self.started_ms) if runs_ahead else wall_ms
+        has_own_time = virtual or mode.speed != 1
+        now_ms = partial(_own_wall_ms, self.clock, self.started_ms) if has_own_time else wall_ms
         self.experimenter = ExperimenterConsole(self._reached(recorder), self.window, self._work, self._slow, now_ms)
         self._publisher = self._publish(settings, recorder, undo) if not virtual else None
         self._strip = self._open_strip(settings, mode, undo)
@@ -361,8 +361,8 @@ def _clock(mode: RunMode, owner: QObject) -> Clock:
     return VirtualClock() if mode.pace is ClockMode.VIRTUAL else WallClock(owner, mode.speed)
 
 
-def _wall_ms_ahead(clock: Clock, started_ms: int) -> int:
-    """Return a wall's clock for time that passes faster, and began with the program."""
+def _own_wall_ms(clock: Clock, started_ms: int) -> int:
+    """Return a wall's clock for time that passes at a speed of its own, and began with the program."""
     return _BEGAN_MS + clock.now_ms() - started_ms
 
 
