@@ -160,7 +160,7 @@ class Speak:
     utterance: int
     sentence: str
     advice: str = ""
-    """The end of a sentence that says where to look or what to do; the bubble shows it apart."""
+    """The end of a sentence that says where to look or what to do; the bubble shows it first."""
 
 
 @dataclass(frozen=True)

@@ -68,7 +68,7 @@ class SpeechWriter:
             self.say(message, outcome, advice, **variables)
 
     def say(self, message: str, outcome: OutcomeBuilder, advice: str = "", **variables: str | int) -> None:
-        """Have one wording of the message said; ``advice`` is the message at its end that the bubble shows apart."""
+        """Have one wording of the message said; ``advice`` is the message at its end that the bubble shows first."""
         self._last = (message, advice, variables)
         sentence, number = self._wording.say(message, **variables), next(self._numbers)
         outcome.emit(happened.SentenceRequested(at_ms=outcome.at_ms, utterance=number, sentence=sentence))

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from PySide6.QtCore import QObject, QPoint, Qt
-from PySide6.QtGui import QImage
+from PySide6.QtCore import QObject, QPoint, QPointF, Qt
+from PySide6.QtGui import QFont, QImage
 from PySide6.QtQuick import QQuickItem
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
@@ -77,6 +78,7 @@ def still(calm: App) -> App:
 
 
 UPRIGHT = pytest.mark.parametrize("calm", ["upright"], indirect=True)
+BOTH = pytest.mark.parametrize("calm", ["wide", "upright"], indirect=True)
 
 
 def find(app: App, name: str) -> QQuickItem:
@@ -378,7 +380,7 @@ def test_the_first_sentence_of_a_practice_goes_with_the_first_card_and_can_be_he
         bubbles = (i for i in items(still.window.contentItem()) if lies_in(i, "Bubble"))
         return [i.property("text") for i in bubbles if i.property("text") and i.property("text") != "Memo"]
 
-    def cheers() -> bool:
+    def bold() -> bool:
         bubbles = (i for i in items(still.window.contentItem()) if lies_in(i, "Bubble"))
         return [i.property("font").bold() for i in bubbles if [i.property("text")] == said()] == [True]
 
@@ -386,47 +388,107 @@ def test_the_first_sentence_of_a_practice_goes_with_the_first_card_and_can_be_he
     board.deal(3, 4, 6, "animals", practice=True)
     still.screens.kiosk.show("practice")
     avatar.say("Let us practise first.")
-    assert (said(), cheers()) == (["Let us practise first."], False)
+    assert (said(), bold()) == (["Let us practise first."], False)
     board.reveal(Position(0, 0), "cat")
-    assert (said(), cheers()) == (["Now turn over a second card."], False)
+    assert (said(), bold()) == (["Now turn over a second card."], True)
     board.reveal(Position(0, 1), "cat")
     board.mark_matched(GONE)
-    assert (said(), cheers()) == (["A pair!"], True)
+    assert (said(), bold()) == (["A pair!"], True)
     still.screens.kiosk.sayAgain()
-    assert (said(), cheers()) == (["Let us practise first."], False)
+    assert (said(), bold()) == (["Let us practise first."], False)
     avatar.say("Look at column 2.")
-    assert (said(), cheers()) == (["Look at column 2."], False)
+    assert (said(), bold()) == (["Look at column 2."], False)
 
 
-def test_what_to_do_stands_on_a_line_of_its_own_and_is_told_once(still: App) -> None:
+def in_bubble(app: App) -> list[QQuickItem]:
+    """Return the texts in the helper's bubble from above, without its name."""
+    shown = (i for i in items(app.window.contentItem()) if lies_in(i, "Bubble") and i.isVisible())
+    texts = [i for i in shown if i.property("text") not in {"", "Memo", None}]
+    return sorted(texts, key=lambda text: text.mapToScene(QPointF(0, 0)).y())
+
+
+def letters(text: QQuickItem) -> QFont:
+    """Return the font of a text."""
+    font = text.property("font")
+    assert isinstance(font, QFont)
+    return font
+
+
+@BOTH
+def test_what_to_do_is_said_last_stands_first_and_is_told_once(still: App) -> None:
     def parts() -> list[tuple[str, bool]]:
-        bubbles = (i for i in items(still.window.contentItem()) if lies_in(i, "Bubble"))
-        shown = ((i.property("text"), i.property("font")) for i in bubbles if i.isVisible() and i.property("text"))
-        return [(text, font.bold()) for text, font in shown if text != "Memo"]
-
-    def sizes() -> list[int]:
-        bubbles = (i for i in items(still.window.contentItem()) if lies_in(i, "Bubble"))
-        return [
-            i.property("font").pixelSize()
-            for i in bubbles
-            if i.isVisible() and i.property("text") not in {"", "Memo", None}
-        ]
+        return [(str(text.property("text")), letters(text).bold()) for text in in_bubble(still)]
 
     avatar = still.screens.avatar
     still.screens.board.deal(3, 4, 6, "animals")
     still.screens.kiosk.show("game")
     avatar.say("You have seen it. Try row 2.", "Try row 2.")
-    assert parts() == [("You have seen it.", False), ("Try row\u00a02.", True)]
-    reason, place = sizes()
-    assert place > 1.1 * reason
+    assert parts() == [("Try row\u00a02.", True), ("You have seen it.", False)]
+    place, reason = in_bubble(still)
+    assert letters(place).pixelSize() > 1.25 * letters(reason).pixelSize()
+    assert place.mapToScene(QPointF(0, place.height())).y() <= reason.mapToScene(QPointF(0, 0)).y()
     inside = (i for i in items(still.window.contentItem()) if lies_in(i, "Bubble") and not is_ignored(i))
     assert [text for _, text in map(described, inside) if "Try" in text] == ["You have seen it. Try row 2."]
+    alone = letters(place).pixelSize()
     avatar.say("Try row 2.", "Try row 2.")
     assert parts() == [("Try row\u00a02.", True)]
+    # With a reason or without, in every condition.
+    assert letters(in_bubble(still)[0]).pixelSize() == alone
     avatar.say("你见过它。看第二行。", "看第二行。")
-    assert parts() == [("你见过它。", False), ("看第二行。", True)]
+    assert parts() == [("看第二行。", True), ("你见过它。", False)]
     avatar.say("You have seen it.")
     assert parts() == [("You have seen it.", False)]
+
+
+@BOTH
+def test_every_sentence_that_says_what_to_do_is_bold_and_larger_than_others(still: App) -> None:
+    def size() -> int:
+        (text,) = in_bubble(still)
+        assert letters(text).bold()
+        return letters(text).pixelSize()
+
+    board, screens = still.screens.board, still.screens
+    screens.avatar.say("You can turn over any card that you like, and then another one.")
+    usual = letters(in_bubble(still)[0])
+    assert not usual.bold()
+    screens.avatar.say("")
+    board.deal(3, 4, 6, "animals")
+    screens.kiosk.show("game")
+    assert size() > 1.2 * usual.pixelSize()
+    board.reveal(Position(0, 0), "cat")
+    pill = find(still, "pill")
+    assert [letters(i).bold() for i in items(pill) if i.inherits("QQuickText")] == [True]
+    board.deal(3, 4, 6, "animals", practice=True)
+    screens.kiosk.show("practice")
+    assert size() > 1.2 * usual.pixelSize()
+    board.reveal(Position(0, 0), "cat")
+    assert size() > 1.2 * usual.pixelSize()
+
+
+@pytest.mark.parametrize(
+    ("advice", "shown"),
+    [
+        ("Look for its partner in row 2, column 1.", "Look for its partner in\u00a0row\u00a02, column\u00a01."),
+        ("Busca la otra en la fila 2, columna 1.", "Busca la otra en\u00a0la\u00a0fila\u00a02, columna\u00a01."),
+        ("Prova la carta della colonna 4, adesso.", "Prova la carta della colonna\u00a04, adesso."),
+        ("It is your turn. Turn over any card.", "It is your turn.\nTurn over any card."),
+        ("Try a card.", "Try a card."),
+    ],
+)
+def test_no_line_ends_between_a_place_and_its_number(advice: str, shown: str, still: App) -> None:
+    still.screens.board.deal(3, 4, 6, "animals")
+    still.screens.kiosk.show("game")
+    still.screens.avatar.say(advice, advice)
+    assert [text.property("text") for text in in_bubble(still)] == [shown]
+    # Large letters leave less room for what stays together.
+    still.window.setProperty("textSize", 1.5)
+    try:
+        (text,) = in_bubble(still)
+        assert text.property("text").split() == shown.split()
+        assert not re.search(r" \d", text.property("text"))
+        assert text.property("contentWidth") <= text.width()
+    finally:
+        still.window.setProperty("textSize", 1)
 
 
 @UPRIGHT
@@ -450,7 +512,7 @@ def test_the_helper_says_whose_turn_it_is_until_a_card_is_turned(still: App) -> 
 
     still.screens.board.deal(3, 4, 6, "animals")
     still.screens.kiosk.show("game")
-    assert said() == ["It is your turn. Turn over any card."]
+    assert said() == ["It is your turn.\nTurn over any card."]
     still.screens.board.reveal(Position(0, 0), "cat")
     assert said() == []
 

@@ -43,7 +43,8 @@ Rectangle {
         width: Math.min(implicitWidth, pill.most - dots.width - 5 * Theme.gap)
         wrapMode: width < implicitWidth ? Text.Wrap : Text.NoWrap
         text: pill.text
-        font.pixelSize: pill.textSize
+        // What to do is bold everywhere.
+        font { pixelSize: pill.textSize; bold: pill.asks }
         color: Theme.ink
         Accessible.role: pill.asks ? Accessible.StaticText : Accessible.AlertMessage
         Accessible.name: text

@@ -14,15 +14,17 @@ Item {
     property bool cheers: false         // whether the sentence is a cheer: large, bold and in the middle
     property string outcome: ""         // what stands above one sentence, as large as a cheer
     property string outcomeOf: ""       // which sentence that is
-    property string advice: ""          // the end of the sentence that says what to do, on a line of its own
+    property string advice: ""          // the end of the sentence that says what to do: read first, above the rest
     property string speaker: ""         // whose words they are; empty where no speaker has a name
 
     // Between the bubble and the face; without a face only the edge of the window has to be kept clear of.
     readonly property real tail: (hasSpeaker ? 34 : 12) * Theme.unit
     readonly property bool tells: outcome !== "" && whole === outcomeOf
     readonly property real cheer: Theme.size(grows ? 64 : 52)
-    // How much larger the part that is set apart is: it is looked for while a card is sought.
-    readonly property real louder: 1.2
+    // What to do is looked for while a card is sought: it is larger than the rest, and in a wide bubble as large as a
+    // few words, where it fits into one line.
+    readonly property real basis: Theme.size(grows ? 36 : 34)
+    readonly property real louder: grows && heading.advanceWidth <= words.width ? heading.font.pixelSize / basis : 1.3
     // A few words in a wide bubble are large, too.
     readonly property bool short: grows && !calls && !cheered && !tells && end === "" && whole !== "" && briefly.advanceWidth <= words.width
     readonly property real tag: speaker === "" ? 0 : name.height - 0.3 * Theme.gap
@@ -56,7 +58,22 @@ Item {
         whole = sentence
     }
 
-    // Both parts as large as they are usually.
+    // Keeps together what is looked for: a number and the word before it, and the short words before these where they
+    // fit into a line. Of several sentences, each begins a line if not all fit into one. What is measured depends on the
+    // font, which is named for that reason alone.
+    readonly property string numbered: end.replace(/ (?=\d)/g, "\u00a0")
+    readonly property string kept: keep(numbered, words.width, letters.font)
+    function keep(numbered: string, room: real, _font: font): string {
+        if (letters.advanceWidth(numbered) <= room)
+            return numbered
+        const lines = numbered.replace(/([.!?]) /g, "$1\n")
+        const short = /(^|[ \n\u00a0])([^\s\d]{1,3}) (?=(?:[^\s\d]{1,3}\s)?[^\s\d]+\u00a0\d)/g
+        const bound = lines.replace(short, "$1$2\u00a0").replace(short, "$1$2\u00a0")
+        return bound.split(/[ \n]/).every(part => letters.advanceWidth(part) <= room) ? bound : lines
+    }
+
+    // Both parts as large as they are usually, and how much of their height there is room for.
+    readonly property real share: Math.max(0, (room - ending.apart) / Math.max(1, usual.high + usualEnd.high))
     component Measure: Text {
         readonly property real high: text === "" ? 0 : height
         visible: false
@@ -68,13 +85,23 @@ Item {
     Measure {
         id: usual
         text: words.text
-        font.pixelSize: bubble.cheered ? bubble.cheer : bubble.short ? briefly.font.pixelSize : Theme.size(bubble.calls ? 50 : bubble.grows ? (large.high + largeEnd.high <= bubble.room - ending.apart ? 38 : 34) : 36)
+        font.pixelSize: bubble.cheered ? bubble.cheer : bubble.short ? briefly.font.pixelSize : bubble.end !== "" ? bubble.basis
+            : Theme.size(bubble.calls ? 50 : bubble.grows ? (large.high <= bubble.room ? 38 : 34) : 36)
         font.bold: bubble.cheered
     }
     Measure {
         id: usualEnd
-        text: ending.text
-        font { pixelSize: Math.round(bubble.louder * usual.font.pixelSize); bold: true }
+        text: bubble.kept
+        font: letters.font
+    }
+    FontMetrics {
+        id: letters
+        font { pixelSize: Math.round(bubble.louder * bubble.basis); bold: true }
+    }
+    TextMetrics {
+        id: heading
+        text: bubble.end
+        font { pixelSize: Theme.size(52); bold: true }
     }
     TextMetrics {
         id: briefly
@@ -86,11 +113,6 @@ Item {
         id: large
         text: bubble.grows ? words.text : ""
         font.pixelSize: Theme.size(38)
-    }
-    Measure {
-        id: largeEnd
-        text: bubble.grows ? ending.text : ""
-        font { pixelSize: Math.round(bubble.louder * Theme.size(38)); bold: true }
     }
     Rectangle {
         id: box
@@ -113,38 +135,36 @@ Item {
             wrapMode: Text.Wrap
             Accessible.role: Accessible.AlertMessage
         }
-        Balanced {
-            id: words
-            readonly property real high: text === "" && bubble.end !== "" ? 0 : height
-            text: bubble.end === "" ? bubble.whole : bubble.whole.slice(0, -bubble.end.length).trim()
-            anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap; topMargin: Theme.gap + bubble.tag + told.high }
-            // What would not fit above the face is set smaller: half the size takes a quarter of the room.
-            font.pixelSize: {
-                const share = Math.max(0, (bubble.room - ending.apart) / Math.max(1, usual.high + usualEnd.high))
-                return share >= 1 ? usual.font.pixelSize : Math.max(Theme.size(0), Math.floor(usual.font.pixelSize * Math.max(share, 0.95 * Math.sqrt(share))))
-            }
-            font.bold: bubble.cheered
-            color: bubble.cheered ? Theme.sea : Theme.ink
-            horizontalAlignment: bubble.cheered || bubble.tells || bubble.short ? Text.AlignHCenter : LayoutMirroring.enabled ? Text.AlignLeft : undefined
-            lineHeight: 1.12
-            // Said once, as a whole.
-            Accessible.role: Accessible.AlertMessage
-            Accessible.name: bubble.whole
-        }
-        // Where to look, found at a glance.
+        // Where to look or what to do, found at a glance. It is said last, and stands first.
         Balanced {
             id: ending
-            readonly property real apart: text !== "" && words.text !== "" ? 0.4 * Theme.gap : 0
+            readonly property real apart: bubble.end !== "" && words.text !== "" ? 0.4 * Theme.gap : 0
             readonly property real high: text === "" ? 0 : height + apart
             visible: text !== ""
-            anchors { left: words.left; right: words.right; top: words.top; topMargin: words.high + apart }
-            // A number stays with the word before it.
-            text: bubble.end.replace(/ (?=\d)/g, "\u00a0")
+            least: 0.75
+            anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap; topMargin: Theme.gap + bubble.tag + told.high }
+            text: bubble.share < 1 ? bubble.numbered : bubble.kept
             font { pixelSize: Math.round(bubble.louder * words.font.pixelSize); bold: true }
             color: Theme.sea
             horizontalAlignment: words.horizontalAlignment
             lineHeight: words.lineHeight
             Accessible.ignored: true
+        }
+        Balanced {
+            id: words
+            readonly property real high: text === "" && bubble.end !== "" ? 0 : height
+            text: bubble.end === "" ? bubble.whole : bubble.whole.slice(0, -bubble.end.length).trim()
+            anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap; topMargin: Theme.gap + bubble.tag + told.high + ending.high }
+            // What would not fit above the face is set smaller: half the size takes a quarter of the room.
+            font.pixelSize: bubble.share >= 1 ? usual.font.pixelSize
+                : Math.max(Theme.size(0), Math.floor(usual.font.pixelSize * Math.max(bubble.share, 0.95 * Math.sqrt(bubble.share))))
+            font.bold: bubble.cheered
+            color: bubble.cheered ? Theme.sea : Theme.ink
+            horizontalAlignment: bubble.cheered || bubble.tells || bubble.short || (bubble.grows && bubble.end !== "") ? Text.AlignHCenter : LayoutMirroring.enabled ? Text.AlignLeft : undefined
+            lineHeight: 1.12
+            // Said once, as a whole, in the order in which it is spoken.
+            Accessible.role: Accessible.AlertMessage
+            Accessible.name: bubble.whole
         }
         // Words are on their way.
         Row {

@@ -330,6 +330,7 @@ Window {
         outcome: root.words["practice-no-pair"]
         outcomeOf: root.words["practice-turning-back"]
         aside: prompt.text
+        asideAdvice: prompt.advice
         cheers: prompt.cheers
         quiet: boardPage.view?.moves ?? false
         marks: boardPage.view?.marks ?? false

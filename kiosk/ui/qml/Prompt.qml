@@ -29,6 +29,8 @@ QtObject {
         : view !== null && board.untouched && board.open ? words["game-begin"] : ""
 
     readonly property string text: hushed ? "" : view !== null ? move : line
+    // Whether it says what to do.
+    readonly property string advice: view !== null && (second || move === words["game-begin"]) ? text : ""
     // Whether it tells how the move goes on, and whether it cheers.
     readonly property bool tells: (second || missed) && text !== "" && !says
     readonly property bool cheers: (glad || done) && text !== "" && !second && !missed

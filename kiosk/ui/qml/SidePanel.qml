@@ -23,6 +23,8 @@ Item {
     // What is to be read in its bubble: while it says nothing, or where it leads, whatever it said last.
     property string aside: ""
     property bool leads: false
+    // What of it says what to do.
+    property string asideAdvice: ""
     // Whether that is a cheer.
     property bool cheers: false
     // What came of a move, to be read above one of these sentences.
@@ -119,7 +121,7 @@ Item {
         speaker: panel.avatar.name
         calls: panel.calls
         grows: panel.grows
-        advice: sentence === panel.said ? panel.avatar.advice : ""
+        advice: sentence === panel.said ? panel.avatar.advice : panel.asideAdvice
         outcome: panel.outcome
         outcomeOf: panel.outcomeOf
         cheers: panel.cheers && sentence === panel.aside

@@ -92,7 +92,7 @@ class AvatarScreen(QObject):
         self.felt.emit()
 
     def say(self, sentence: str, advice: str = "") -> None:
-        """Show a sentence in the bubble, its end that gives advice apart; an empty one takes the bubble away."""
+        """Show a sentence in the bubble, with its end that gives advice first; an empty one takes the bubble away."""
         self._bubble, self._advice = sentence, advice
         self.said.emit()
 
@@ -170,7 +170,7 @@ class AvatarScreen(QObject):
 
     @Property(str, notify=said)
     def advice(self) -> str:
-        """Return the end of the sentence that says what to do; empty where none is shown apart."""
+        """Return the end of the sentence that says what to do; empty where there is none."""
         return self._advice
 
     @Property(float, notify=looked)
