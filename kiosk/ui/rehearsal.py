@@ -286,6 +286,9 @@ class Rehearsal:
 
     def _play(self, shown: str) -> None:
         board = self._app.screens.board
+        if shown == "practice" and not board.property("practice"):
+            # The board is cleared for the game a moment before the game's screen comes.
+            return
         if shown == "practice" and not self._will_practise():
             self._click("skip")
         elif board.accepts_taps and board.closed:

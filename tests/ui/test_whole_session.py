@@ -22,7 +22,7 @@ from kiosk.experiment.session_config import SessionConfig
 from kiosk.experiment.session_state import SessionState
 from kiosk.store.queries import open_repository
 from kiosk.ui.rehearsal import Rehearsal
-from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile
+from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile, UiTimeout
 from tests.ui.conftest import Booth, MakeBooth, shared_booth
 from tests.ui.headless import BRIEF, HALF, SMALL, TINY, headless, often, short
 from tests.ui.visiting import PAIR
@@ -107,6 +107,29 @@ def test_whoever_walks_away_is_asked_and_then_the_kiosk_is_free_again(bare: Boot
     assert True in asked
     assert bare.screen == "attract"
     assert endings(bare) == before + ([] if stage == "consent" else [Status.ABANDONED])
+
+
+def test_a_visitor_in_a_hurry_waits_while_the_practice_makes_room_for_the_game(bare: Booth) -> None:
+    """For a moment, the practice is on the screen and cannot be left any more."""
+    kiosk, board = bare.app.screens.kiosk, bare.app.screens.board
+    rehearsal = Rehearsal(bare.app, 1, visitor=BehaviourProfile(BehaviourKind.HASTY))
+    missed: list[str] = []
+
+    def look() -> None:
+        if kiosk.shown == "practice" and not board.property("practice"):
+            try:
+                rehearsal._go_on(kiosk.shown)
+            except UiTimeout as stuck:
+                missed.append(str(stuck))
+            else:
+                missed.append("")
+
+    board.changed.connect(look)
+    rehearsal.run()
+    board.changed.disconnect(look)
+    assert missed
+    assert set(missed) == {""}
+    assert endings(bare)[-1] is Status.COMPLETED
 
 
 CONDITIONAL = """
