@@ -9,10 +9,11 @@ import pytest
 import segno
 from PySide6.QtCore import QPoint, QPointF, QRectF
 from PySide6.QtGui import QImage
+from PySide6.QtQuick import QQuickItem
 from pytestqt.qtbot import QtBot
 
 from kiosk.config import ASSETS
-from kiosk.experiment.information import Page
+from kiosk.experiment.information import Information, Page
 from kiosk.game import Position
 from kiosk.ui.screens.debrief import QUIET_MODULES
 from tests.ui.conftest import Booth
@@ -179,50 +180,100 @@ def test_the_helper_says_the_last_line_where_it_stands_beside_the_page(booth: Bo
     assert said() == {False}
 
 
-def test_the_helper_says_the_last_two_of_five_points_as_two_paragraphs_of_whole_sentences(booth: Booth) -> None:
-    paragraphs = (*(f"Point {number}\nThis is short." for number in range(4)), "It is no test\nYou can ask us.")
-    page = Page(
-        title="What we study", paragraphs=paragraphs, signs=("compare", "seen", "chance", "questions", "helper")
-    )
+SIGNS = ("compare", "seen", "chance", "questions", "helper", "clock")
 
-    def said() -> dict[str, bool]:
-        booth.settle()
-        found = [item for item in items(booth.app.window.contentItem()) if "no test" in str(item.property("text"))]
-        return {str(item.property("text")): lies_in(item, "Bubble") for item in found}
 
-    booth.app.screens.debrief.show(page)
+def points(count: int, last: str = "It is no test\nYou can ask us.") -> Page:
+    """Return a page of so many points, of which the last is this one."""
+    paragraphs = (*(f"Point {number}\nThis is short." for number in range(count - 1)), last)
+    return Page.model_validate({"title": "What we study", "paragraphs": paragraphs, "signs": SIGNS[:count]})
+
+
+def shown_at(booth: Booth, qtbot: QtBot, width: int, height: int) -> None:
+    """Show the debrief in a window of this size."""
+    window = booth.app.window
     booth.app.screens.kiosk.show("debrief")
-    assert said() == {"Point 3. This is short.\nIt is no test. You can ask us.": True}
-    booth.app.screens.debrief.show(page.model_copy(update={"paragraphs": paragraphs[1:], "signs": page.signs[1:]}))
-    assert said() == {"It is no test. You can ask us.": True}
-
-
-def test_two_points_stand_on_cards_between_plain_lines_and_the_helper_says_the_fifth_in_whole_sentences(
-    booth: Booth, qtbot: QtBot
-) -> None:
-    # The last two are too long for the helper to say both.
-    points = (
-        *(f"Point {number}\nThis is short." for number in range(3)),
-        "Point 3\nIt could have changed your game and all your answers.",
-    )
-    test = "It is no test of what you remember, nor of how fast you turn all the cards over"
-    last = f"{test}\nYou can ask us about it, and we answer."
-    paragraphs = (*points, last)
-    page = Page(
-        title="What we study", paragraphs=paragraphs, signs=("compare", "seen", "chance", "questions", "helper")
-    )
-    booth.app.screens.debrief.show(page)
-    booth.app.screens.kiosk.show("debrief")
+    window.resize(width, height)
+    qtbot.waitUntil(lambda: window.contentItem().width() == width)
     booth.settle()
-    texts = {str(item.property("text")): item for item in items(booth.app.window.contentItem())}
+
+
+def texts(booth: Booth) -> dict[str, QQuickItem]:
+    """Return what is written, by its text."""
+    return {str(item.property("text")): item for item in items(booth.app.window.contentItem())}
+
+
+@pytest.mark.parametrize("last", ["It is no test\nYou can ask us.", f"It is no test\nYou {'can ' * 40}ask us."])
+def test_two_points_stand_on_cards_between_plain_lines_and_the_helper_says_the_fifth_if_it_is_short(
+    booth: Booth, qtbot: QtBot, last: str
+) -> None:
+    page = points(5, last)
+    booth.app.screens.debrief.show(page)
+    shown_at(booth, qtbot, 1920, 1080)
+    written = texts(booth)
 
     def place(number: int) -> QPointF:
         # A plain one has its text in the same line.
-        return texts[f"Point {number}" + ("." if number in {0, 3} else "")].mapToScene(QPointF(0, 0))
+        return written[f"Point {number}" + ("." if number in {0, 3} else "")].mapToScene(QPointF(0, 0))
 
     qtbot.waitUntil(lambda: place(0).x() == place(3).x() < place(1).x() < place(2).x())
     qtbot.waitUntil(lambda: place(0).y() < place(1).y() == place(2).y() < place(3).y())
-    assert place(1).y() - place(0).y() < 2 * texts["Point 0."].height()
+    assert place(1).y() - place(0).y() < 2 * written["Point 0."].height()
     # A click on it in the preview finds the whole point.
-    assert texts["Point 0."].parentItem().property("text") == paragraphs[0]
-    assert lies_in(texts[last.replace("\n", ". ")], "Bubble")
+    assert written["Point 0."].parentItem().property("text") == page.paragraphs[0]
+    said = "It is no test. You can ask us."
+    assert (said in written and lies_in(written[said], "Bubble")) == (len(last) < 130)
+
+
+def test_on_an_upright_page_two_points_stand_on_cards_with_their_drawings_above_the_words(
+    booth: Booth, qtbot: QtBot
+) -> None:
+    booth.app.screens.debrief.show(points(5))
+    shown_at(booth, qtbot, 1080, 1920)
+    written = texts(booth)
+
+    def place(text: str) -> QPointF:
+        return written[text].mapToScene(QPointF(0, 0))
+
+    qtbot.waitUntil(lambda: place("Point 1").y() == place("Point 2").y() < place("Point 3.").y())
+    assert place("Point 0.").y() < place("Point 1").y()
+    assert place("Point 3.").y() < place("It is no test.").y()
+    # The words begin where the drawing does, below it.
+    point = written["Point 1\nThis is short."]
+    assert place("Point 1").x() == point.mapToScene(QPointF(0, 0)).x()
+    assert place("Point 1").y() > point.mapToScene(QPointF(0, 0)).y() + 110
+
+
+@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])
+@pytest.mark.parametrize("count", range(1, 7))
+def test_one_to_six_points_and_the_card_to_take_home_are_seen_without_scrolling(
+    booth: Booth, qtbot: QtBot, count: int, width: int, height: int
+) -> None:
+    booth.app.screens.debrief.show(points(count))
+    booth.app.screens.debrief.give_contact(MAIL)
+    booth.app.screens.debrief.give_code(CODE)
+    shown_at(booth, qtbot, width, height)
+    assert not booth.sees("more")
+    code, way = booth.item("qr"), booth.item("continue")
+    assert code.mapToScene(QPointF(0, code.height())).y() < way.mapToScene(QPointF(0, 0)).y()
+
+
+@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])
+@pytest.mark.parametrize("language", ["en", "it", "es"])
+def test_the_shipped_debriefing_is_about_its_two_versions_and_the_code_is_smaller(
+    booth: Booth, qtbot: QtBot, language: str, width: int, height: int
+) -> None:
+    page = Information.of(ASSETS / "consent" / "study", language).debrief
+    booth.app.screens.debrief.show(page)
+    booth.app.screens.debrief.give_code("WWWWW-WWWWW")
+    shown_at(booth, qtbot, width, height)
+    written = texts(booth)
+    for version in page.paragraphs[1:3]:
+        assert written[version.split("\n")[0]].property("font").pixelSize() >= 36
+        assert written[version].property("badge") >= 99
+    assert booth.item("qr").width() <= 300
+    bubble = next(
+        (item for text, item in written.items() if text and lies_in(item, "Bubble") and "Memo" not in text), None
+    )
+    assert (bubble is None) == (width < height)
+    assert bubble is None or bubble.property("lineCount") <= 3

@@ -176,9 +176,8 @@ keyboard-signs = Signs
 
 ## Debrief
 
-debrief-take-home = To take home: photograph this card
-debrief-take-home-scan = To take home: scan or photograph this card
-debrief-code = Your code
+debrief-take-home = To take home
+debrief-code = Your code to scan or photograph
 debrief-scan-letter = A message to send us
 debrief-scan-summary = Your code and our study
 debrief-scan = Your code, to scan

@@ -177,9 +177,8 @@ keyboard-signs = Signos
 
 ## Debrief
 
-debrief-take-home = Para llevar a casa: haz una foto de esta tarjeta
-debrief-take-home-scan = Para llevar a casa: escanea o fotografía esta tarjeta
-debrief-code = Tu código
+debrief-take-home = Para llevar a casa
+debrief-code = Tu código, para escanear o fotografiar
 debrief-scan-letter = Un mensaje para nosotros
 debrief-scan-summary = Tu código y el estudio
 debrief-scan = Tu código para escanear

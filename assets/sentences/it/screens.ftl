@@ -181,9 +181,8 @@ keyboard-signs = Segni
 
 ## Debrief
 
-debrief-take-home = Da portare a casa: fotografa questa scheda
-debrief-take-home-scan = Da portare a casa: inquadra o fotografa questa scheda
-debrief-code = Il tuo codice
+debrief-take-home = Da portare a casa
+debrief-code = Il tuo codice, da inquadrare o fotografare
 debrief-scan-letter = Un messaggio per noi
 debrief-scan-summary = Il codice e lo studio
 debrief-scan = Il codice da inquadrare

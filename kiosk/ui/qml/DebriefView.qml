@@ -10,10 +10,7 @@ PageFrame {
     required property DebriefScreen debrief
     required property string labName
 
-    // The helper says the last point. It says the last two where the first of them would stand alone between cards and code.
-    readonly property bool lastTwoSaid: debrief.lines.length === 5 && debrief.lines[0].sign !== ""
-        && sayable(debrief.lines, 2) !== ""
-    aside: sayable(debrief.lines, lastTwoSaid ? 2 : 1)
+    aside: sayable(debrief.lines)
 
     title: debrief.title
     label: words["debrief-continue"]
@@ -27,15 +24,14 @@ PageFrame {
     DebriefShape {
         id: shape
         widths: wordWidths
-        points: view.aside === "" ? view.debrief.lines : view.debrief.lines.slice(0, view.lastTwoSaid ? -2 : -1)
-        lastTwoSaid: view.lastTwoSaid
-        kept: view.words[view.debrief.code === "" ? "debrief-take-home" : "debrief-take-home-scan"]
-            + (view.labName === "" ? "" : " · " + view.labName)
+        points: view.aside === "" ? view.debrief.lines : view.debrief.lines.slice(0, -1)
+        half: view.half(points.map(point => point.text))
+        kept: view.words["debrief-take-home"]
         codeName: view.words["debrief-code"]
-        notes: [view.debrief.withdrawing, view.debrief.returning, view.debrief.questions]
+        notes: [view.debrief.withdrawing, view.debrief.returning, view.debrief.questions, view.labName]
         squares: view.debrief.squares
+        coded: view.debrief.code !== ""
         upright: view.width < view.height
-        accompanied: view.accompanied
         column: view.column
         room: view.room
     }
@@ -58,10 +54,9 @@ PageFrame {
             id: parts
             // What there is beside both, or less than nothing.
             readonly property real free: view.room - texts.height - card.height
-            // Points and card stand further apart than the points, by half of what is free; below cards, as far as from the
-            // way on.
-            readonly property real apart: Math.max(1, debriefSizes.paired ? Math.min(1.6, free / Theme.gap / 2 + 0.5)
-                : debriefSizes.signed ? Math.min(2.5, free / Theme.gap / 2 + 0.33) : 1) * Theme.gap
+            // Points and card stand further apart than the points, by half of what is free.
+            readonly property real apart: Math.max(1, !debriefSizes.signed ? 1
+                : Math.min(debriefSizes.paired ? 1.6 : 2.5, free / Theme.gap / 2 + 0.33)) * Theme.gap
             // What is taken home is seen without scrolling.
             readonly property bool cardFirst: card.there && free < apart
             width: pane.width
@@ -74,7 +69,6 @@ PageFrame {
                 page: shape
                 pairs: pointPairs
                 sizes: debriefSizes
-                apart: card.there && !parts.cardFirst ? parts.apart : 0
             }
             TakeHomeCard {
                 id: card
@@ -82,8 +76,8 @@ PageFrame {
                 width: parent.width
                 debrief: view.debrief
                 page: shape
-                pairs: pointPairs
                 sizes: debriefSizes
+                labName: view.labName
                 room: view.room - texts.height - (shape.upright ? 1.1 : 1) * Theme.gap
             }
         }

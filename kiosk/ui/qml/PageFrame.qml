@@ -59,10 +59,10 @@ FocusScope {
         return text.replace(/([^.,;:!?…。！？])\n/, "$1.\n").split("\n")
     }
 
-    // The last of several lines, or the last few, if the helper can say it: a bubble holds a short text only.
-    function sayable(lines: var, count = 1): string {
-        const last = lines.slice(-count).map(line => sentences(line.text).join(" ")).join("\n")
-        return accompanied && lines.length > count && last.length <= (count === 1 ? 130 : 180) ? last : ""
+    // The last of several lines, if the helper can say it: a bubble holds a short text only.
+    function sayable(lines: var): string {
+        const last = lines.length > 1 ? sentences(lines[lines.length - 1].text).join(" ") : ""
+        return accompanied && last.length <= 130 ? last : ""
     }
 
     // How many of these texts stand in the first of two columns, so that both are about as long.

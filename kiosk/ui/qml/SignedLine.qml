@@ -41,17 +41,19 @@ Item {
     property real badge: 2.5 * size
     // Whether the drawing stands in the middle of the lines, and not at the first of them.
     property bool centred: false
+    // Whether the drawing stands above the lines, and not beside them.
+    property bool above: false
 
     // How high it is at least, so that lines beside each other begin together.
     property real least: 0
 
-    height: Math.max(words.height, signed ? mark.height : 0, least)
+    height: Math.max(words.y + words.height, signed ? mark.height : 0, least)
 
     Rectangle {
         id: mark
         visible: line.signed
         x: Theme.across(0, width, line.width)
-        y: line.centred ? (line.height - height) / 2 : Math.max(0, (Math.min(words.height, 2.7 * line.size) - height) / 2)
+        y: line.above ? 0 : line.centred ? (line.height - height) / 2 : Math.max(0, (Math.min(words.height, 2.7 * line.size) - height) / 2)
         width: line.badge
         height: width
         radius: width / 2
@@ -73,9 +75,9 @@ Item {
     }
     Column {
         id: words
-        readonly property real indent: line.signed ? mark.width + (line.centred ? 1.5 : 1) * Theme.gap : 0
+        readonly property real indent: line.signed && !line.above ? mark.width + (line.centred ? 1.5 : 1) * Theme.gap : 0
         x: Theme.across(indent, width, line.width)
-        y: line.signed ? Math.max(0, (mark.height - height) / 2) : 0
+        y: !line.signed ? 0 : line.above ? mark.height + 0.5 * Theme.gap : Math.max(0, (mark.height - height) / 2)
         width: line.width - indent
         Balanced {
             width: parent.width

@@ -66,7 +66,6 @@ FIXED = (
     "keyboard-accents",
     "keyboard-signs",
     "debrief-take-home",
-    "debrief-take-home-scan",
     "debrief-code",
     "debrief-continue",
     "thanks-title",

@@ -176,9 +176,8 @@ keyboard-signs = Zeichen
 
 ## Debrief
 
-debrief-take-home = Zum Mitnehmen: Fotografiere diese Karte
-debrief-take-home-scan = Zum Mitnehmen: Scanne oder fotografiere diese Karte
-debrief-code = Dein Code
+debrief-take-home = Zum Mitnehmen
+debrief-code = Dein Code zum Scannen oder Fotografieren
 debrief-scan-letter = Eine Nachricht an uns
 debrief-scan-summary = Dein Code und die Studie
 debrief-scan = Dein Code zum Scannen

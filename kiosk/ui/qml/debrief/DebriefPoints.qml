@@ -1,4 +1,4 @@
-// The points of the debrief: in pairs of cards, below each other, or in two columns.
+// The points of the debrief: two of them on cards, below each other, or in two columns.
 pragma ComponentBehavior: Bound
 import QtQuick
 import ".."
@@ -10,12 +10,10 @@ Item {
     required property DebriefShape page
     required property PointPairs pairs
     required property DebriefSizes sizes
-    // How far the card to take home is below them; 0 where it is not.
-    required property real apart
 
     // Short lines are read with less effort than long ones: in two columns where there is room.
     readonly property var columns: {
-        const half = sizes.halved ? frame.half(page.points.map(point => point.text)) : page.points.length
+        const half = sizes.halved ? page.half : page.points.length
         return [page.points.slice(0, half), page.points.slice(half)].filter(column => column.length > 0)
     }
 
@@ -32,17 +30,13 @@ Item {
                 readonly property bool plain: modelData.length === 1
                 // As high as the one that says more.
                 readonly property real tall: Math.max(...Array.from(children, each => (each as PointCard)?.said ?? 0))
-                topPadding: texts.pairs.step(index)
+                topPadding: index === 0 ? 0 : texts.pairs.step(index) + texts.pairs.further
                 spacing: Theme.gap
-                // A plain line between cards and the code has as much air above its letters as below them.
-                transform: Translate {
-                    y: row.index > 1 && row.plain && texts.apart > 0
-                        ? Math.round(Math.max(0, texts.apart - row.topPadding - 0.17 * texts.pairs.headingSize) / 2) : 0
-                }
                 Repeater {
                     model: row.modelData
                     PointCard {
                         width: row.plain ? texts.width : (texts.width - row.spacing) / 2
+                        row: row.index
                         plain: row.plain
                         tall: row.tall
                         frame: texts.frame

@@ -6,17 +6,17 @@ QtObject {
     id: page
 
     required property WordWidths widths
-    // The points that are read on the page. The helper says the others: the last one, or the last two.
+    // The points that are read on the page; the helper may say one more.
     required property var points
-    required property bool lastTwoSaid
+    // How many of them stand in the first of two columns, so that both are about as long.
+    required property int half
     // The card to take home: its heading, what the code is called, what is said about it, and the squares of its picture.
     required property string kept
     required property string codeName
     required property list<string> notes
     required property int squares
+    required property bool coded
     required property bool upright
-    // Whether the helper stands beside the page.
-    required property bool accompanied
     required property real column
     required property real room
 
@@ -25,6 +25,8 @@ QtObject {
     readonly property real leading: 0.9
     // How far the white around the code reaches beyond its own frame, for round corners.
     readonly property real rim: 6 * Theme.unit
+    // How much air the letters of the code have above them, as a share of their size.
+    readonly property real codeAir: 0.18
 
     // Whether this point is a heading itself: one without a heading, among others that have one.
     function isHeading(text: string): bool {
@@ -50,6 +52,16 @@ QtObject {
     }
     // The same for what stands on the card.
     function cardLines(texts: list<string>, size: real, width: real): int {
-        return texts.join("\n").split("\n").reduce((sum, part) => sum + Math.ceil(widths.plain(part, size) / width), 0)
+        return texts.filter(text => text !== "").join("\n").split("\n")
+            .reduce((sum, part) => sum + Math.ceil(widths.plain(part, size) / width), 0)
+    }
+    // How high the card is about, with a code of this side and so much air, texts in these sizes, and the code in large
+    // letters.
+    function cardHeight(side: real, pad: real, heading: real, note: real, letters: real): real {
+        const width = 0.95 * (column - (coded ? codeSide(side) + 1.5 * Theme.gap + 2 * rim : 0) - pad - Theme.gap)
+        const told = cardLines([kept], 1.08 * heading, width) * lineHeight(heading)
+            + cardLines(notes, note, width) * lineHeight(note) + 0.2 * Theme.gap * (2 + notes.filter(text => text !== "").length)
+        const named = cardLines([codeName], Theme.reading, width) * lineHeight(Theme.reading) + (1.37 - codeAir) * letters
+        return Math.max(coded ? codeSide(side) + 2 * rim : 0, told + (coded ? named : 0)) + 2 * pad
     }
 }

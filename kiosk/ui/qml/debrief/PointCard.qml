@@ -9,12 +9,15 @@ Rectangle {
     required property PageFrame frame
     required property DebriefShape page
     required property PointPairs pairs
+    // Which row it stands in.
+    required property int row
     required property bool plain
     // How high what the row says is, and what this one says.
     required property real tall
     readonly property real said: runsOn ? line.height : point.height
 
-    readonly property bool runsOn: plain && pairs.runsOn(modelData.text, pairs.headingSize)
+    readonly property real size: plain ? pairs.plainSize(modelData.text, row, pairs.size) : pairs.size
+    readonly property bool runsOn: plain && pairs.runsOn(modelData.text, size)
     readonly property real inset: plain ? 0 : pairs.inset
 
     height: tall + 2 * inset
@@ -29,7 +32,9 @@ Rectangle {
         width: card.width - 2 * x
         text: card.modelData.text
         sign: card.plain ? "" : card.modelData.sign
-        size: card.pairs.size
+        badge: card.pairs.badge * size
+        above: card.pairs.above
+        size: card.size
         leading: card.page.leading
         strong: card.page.isHeading(text)
     }
@@ -37,7 +42,7 @@ Rectangle {
         id: line
         // The whole point, which is found by it in the preview.
         readonly property string text: card.modelData.text
-        readonly property var parts: card.runsOn ? card.frame.sentences(text) : ["", ""]
+        readonly property var parts: card.frame.sentences(text)
         visible: card.runsOn
         width: card.width
         height: heading.height
@@ -45,12 +50,12 @@ Rectangle {
             id: heading
             x: Theme.across(0, width, parent.width)
             text: line.parts[0]
-            font { pixelSize: card.pairs.headingSize; bold: true }
+            font { pixelSize: card.size; bold: true }
         }
         PlainText {
-            x: Theme.across(heading.width + 0.3 * card.pairs.headingSize, width, parent.width)
-            text: line.parts[1]
-            font.pixelSize: card.pairs.headingSize
+            x: Theme.across(heading.width + 0.3 * card.size, width, parent.width)
+            text: line.parts[1] ?? ""
+            font.pixelSize: card.size
         }
     }
 }

@@ -1,5 +1,5 @@
-// How points stand beside the helper: the first leads to those after it, which stand two by two close below it, as cards in
-// the order in which they are read. A last one is plain, as the first.
+// How the points stand where a study compares two things: the first leads to the second and the third, which are cards
+// beside each other, and those after them are plain lines.
 import QtQuick
 import ".."
 
@@ -8,69 +8,69 @@ QtObject {
 
     required property DebriefShape page
 
-    readonly property var rows: page.points.reduce((rows, point, at) => {
-        if (at % 2 === 1)
-            rows.push([])
-        rows[rows.length - 1].push(point)
-        return rows
-    }, [[]])
-    // How large the letters are: as large as leaves room for a code that is easy to scan; 0 where there is no room. Where
-    // the helper says the last two, a point may have one more line.
-    readonly property real size: !page.accompanied || page.upright || page.points.length < 3 || !page.drawn ? 0
-        : tried(3) || (page.lastTwoSaid ? tried(4) : 0)
-    // The sizes of letters and of the card with the code that are tried.
-    readonly property var trials: [
-        [36, 400], [35, 400], [34, 400],
-        [36, 342], [35, 342], [34, 342],
-        [36, 303], [35, 303], [34, 303], [33, 303], [32, 303]
-    ]
-    // How high all rows are, and how large the code below them is at most.
+    readonly property var rows: [page.points.slice(0, 1), page.points.slice(1, 3), ...page.points.slice(3).map(point => [point])]
+    // How large the letters on the cards are, and the code below them at most: as large as there is room for; 0 where
+    // there is none.
+    readonly property var found: page.points.length < 3 || !page.drawn ? undefined
+        : trials.find(([letters, code]) => fits(Theme.size(letters), code * Theme.unit))
+    readonly property real size: found === undefined ? 0 : Theme.size(found[0])
+    readonly property real mostCode: found === undefined ? 0 : found[1] * Theme.unit
+    readonly property var trials: [40, 38, 36, 35, 34, 33, 32]
+        .reduce((trials, letters) => [...trials, [letters, 300], [letters, 270], [letters, 240]], [])
     readonly property real height: stacked(size)
-    readonly property real mostCode: (page.lastTwoSaid ? 410 : 352) * Theme.unit
-    // How large a plain point is in one line: larger than the cards' texts, where all of them have the width and the page
-    // has the height.
-    readonly property real headingSize: {
-        const plain = rows.filter(row => row.length === 1).map(row => row[0].text)
-        const free = page.room - height - page.codeSide(mostCode) - 2 * page.rim - 2.7 * Theme.gap
-        return [42, 41, 40].map(Theme.size).find(tried => plain.every(text => runsOn(text, tried))
-            && plain.length * page.lineHeight(tried - size) <= free) ?? size
-    }
+    // What is added to what is between rows, of the room that is left.
+    readonly property real further: Math.max(0, Math.min(0.6 * Theme.gap,
+        (page.room - needed(size, mostCode)) / 2 / Math.max(1, rows.length)))
 
+    // The texts on the card to take home: its heading, what is said about the code, and the code.
+    readonly property real heading: Theme.size(40)
+    readonly property real note: Theme.size(32)
+    readonly property real letters: Theme.size(page.upright ? 72 : 92)
+    readonly property real pad: 0.9 * Theme.gap
+
+    // A drawing is as high as two lines and a little more. Above the words where a card is narrow.
+    readonly property real badge: 2.75
+    readonly property bool above: page.upright
     // How much is around what a card says.
-    readonly property real inset: 0.75 * Theme.gap
+    readonly property real inset: (above ? 1 : 0.9) * Theme.gap
     readonly property real insetAcross: Theme.gap
-    readonly property real textWidth: (page.column - Theme.gap) / 2 - 2 * insetAcross
 
-    // How far a row is below the one before it: plain points are close to the cards that they are about.
+    // How far a row is below the one before it: what is plain is close to the cards that it is about.
     function step(at: int): real {
-        return at === 0 ? 0 : (at === 1 ? 0.75 : rows[at].length === 1 ? 0.6 : 1) * Theme.gap
+        return at === 0 ? 0 : (at === 1 || at === 2 ? 0.9 : 0.6) * Theme.gap
+    }
+    // How large a plain point is. The first one, which leads, is larger than the cards, where it has room in one line.
+    function plainSize(text: string, at: int, size: real): real {
+        return (at === 0 ? [1.2, 1.15, 1.1, 1.05] : []).map(share => share * size).find(tried => runsOn(text, tried)) ?? size
     }
     // Whether heading and text of a plain point have room in one line.
     function runsOn(text: string, size: real): bool {
-        const parts = text.split("\n"), words = page.widths
-        return parts.length === 2 && words.bold(parts[0], size) + words.plain(parts[1], size) + 0.45 * size <= 0.995 * page.column
+        const [lead, rest] = [...text.split("\n"), ""], words = page.widths
+        return text.split("\n").length < 3 && words.bold(lead, size) + words.plain(rest, size) + 0.45 * size <= 0.995 * page.column
     }
-    // The largest letters with which page and card fit, with so many lines in a point at most; 0 if there are none.
-    function tried(most: int): real {
-        const found = trials.find(([size, card]) => {
-            const letters = Theme.size(size)
-            return rows.every(row => lines(row, letters) <= most)
-                && 1.02 * stacked(letters) + Theme.gap + card * Theme.unit <= page.room
-        })
-        return found === undefined ? 0 : Theme.size(found[0])
+    // Whether points and card have room in these sizes. On a card, no point has more than two lines and two more.
+    function fits(size: real, code: real): bool {
+        return rows.every((row, at) => lines(row, at, size) <= 4)
+            && needed(size, code) <= page.room
+    }
+    function needed(size: real, code: real): real {
+        return 1.02 * stacked(size) + Theme.gap + page.cardHeight(code, pad, heading, note, letters)
     }
     // How many lines the point of a row has that has most of them.
-    function lines(row: var, size: real): int {
-        if (row.length === 1)
-            return runsOn(row[0].text, size) ? 1 : page.pointLines(row[0].text, size, page.column)
-        const width = textWidth - 2.5 * size - Theme.gap
+    function lines(row: var, at: int, size: real): int {
+        if (row.length === 1) {
+            const plain = plainSize(row[0].text, at, size)
+            return runsOn(row[0].text, plain) ? 1 : page.pointLines(row[0].text, plain, page.column)
+        }
+        const width = (page.column - Theme.gap) / 2 - 2 * insetAcross - (above ? 0 : badge * size + Theme.gap)
         return Math.max(...row.map(point => page.pointLines(point.text, size, width)))
     }
-    // How high all rows are with letters of this size. A card is as high as its drawing at least.
+    // How high all rows are with letters of this size.
     function stacked(size: real): real {
-        return rows.reduce((sum, row, at) => {
-            const text = page.pointHeight(lines(row, size), size)
-            return sum + step(at) + (row.length === 1 ? text : 2 * inset + Math.max(2.5 * size, text))
+        return size === 0 ? 0 : rows.reduce((sum, row, at) => {
+            const text = page.pointHeight(lines(row, at, size), row.length === 1 ? plainSize(row[0].text, at, size) : size)
+            return sum + step(at) + (row.length === 1 ? text : 2 * inset
+                + (above ? badge * size + 0.5 * Theme.gap + text : Math.max(badge * size, text)))
         }, 0)
     }
 }
