@@ -98,6 +98,13 @@ def kiosk(qapp: QApplication) -> Iterator[tuple[Window, StudyConfig]]:  # noqa: 
         yield opened, study
 
 
+@pytest.fixture
+def whole_window(kiosk: tuple[Window, StudyConfig]) -> Iterator[tuple[Window, StudyConfig]]:
+    """Provide a window of that study whose pages and cards come as they are needed."""
+    with open_window(kiosk[1]) as opened:
+        yield opened, kiosk[1]
+
+
 @pytest.fixture(scope="module", params=["en", pseudo.LANGUAGE])
 def study(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> StudyConfig:
     """Return the study in one language."""
@@ -818,12 +825,56 @@ def test_words_over_everything_fit(opened: Window, study: StudyConfig, sizes: Se
             said.append({str(text.property("text")) for text in texts(shown.contentItem())})
             whole = QRectF(0, 0, shown.width(), shown.height())
             assert all(whole.contains(painted(text)) for text in texts(shown.contentItem()))
-        line, help_ = (study.plans[0].catalogue.text(name) for name in ("pause-line", "pause-help"))
-        assert [line in each for each in said] == [False, True, False, False]
+        names = ("pause-line", "pause-kept", "pause-help", "pause-then")
+        line, kept, help_, then = (study.plans[0].catalogue.text(name) for name in names)
+        assert [line in each for each in said] == [kept in each for each in said] == [False, True, False, False]
         assert [help_ in each for each in said] == [False, False, True, False]
+        assert [then in each for each in said] == [False, False, False, True]
         assert any("23:59" in text for text in said[-1])
         kiosk.come_back_at("")
         kiosk.clear()
+
+
+@pytest.mark.parametrize(
+    "layout",
+    [Layout(1920, 1080), Layout(1080, 1920), Layout(1366, 768, robot=True), Layout(720, 1280, robot=True)],
+    ids=str,
+)
+def test_a_card_over_everything_lies_in_the_window_with_all_that_stands_on_it(
+    whole_window: tuple[Window, StudyConfig], layout: Layout
+) -> None:
+    window, study = whole_window
+    kiosk, shown = window.screens.kiosk, window.shown
+    shown.resize(layout.width, layout.height)
+    QCoreApplication.processEvents()
+    assert shown.contentItem().width() == layout.width
+    window.screens.avatar.appear(present=not layout.robot)
+    kiosk.begin(SHIPPED, "en", study.plans[0].settings.consent)
+    kiosk.give_code("WMWMW-MWMWM")
+    kiosk.show("practice")
+    covers: dict[str, tuple[Callable[[], None], Callable[[], None]]] = {
+        "stop": (partial(kiosk.ask, "stop"), partial(kiosk.ask, "")),
+        "still there": (
+            partial(kiosk.ask_still_there, asks=True, wait_ms=20_000),
+            partial(kiosk.ask_still_there, asks=False),
+        ),
+        "pause": (partial(kiosk.pause, paused=True), partial(kiosk.pause, paused=False)),
+    }
+    ground = QRectF(0, 0, layout.width, layout.height)
+    for plan in study.plans:
+        window.screens.set_language(plan.catalogue)
+        for size in TextSize:
+            kiosk.set_text_size(size)
+            for name, (cover, uncover) in covers.items():
+                cover()
+                lay_out(shown)
+                card = find_item(shown.contentItem(), "calm-card")
+                assert card is not None, name
+                told = f"{name}, {plan.language}, {size.value}"
+                assert ground.contains(whole(card)), told
+                assert all(whole(card).contains(painted(text)) for text in texts(card)), told
+                assert all(whole(card).contains(whole(button)) for button in controls(card)), told
+                uncover()
 
 
 @pytest.mark.parametrize(("width", "height"), SIZES)

@@ -202,12 +202,15 @@ scroll-more = There is more below
 still-there-title = Are you still there?
 still-there-line = If not, I will get ready for the next player.
 still-there-yes = I am still here
-# the unit of the seconds that are left, below their number: short
-still-there-second = sec
+# below the number of seconds that are left: the first where it is 1
+still-there-second = second
+still-there-seconds = seconds
 pause-title = A short break
-pause-line = It goes on in a moment.
+pause-line = The people at this table need a moment.
+pause-kept = Nothing is lost. It goes on by itself.
 # time: when the people at the table are back, such as 14:05
 pause-back = Back at { $time }.
+pause-then = You can play then.
 pause-help = Please ask the people at this table for help.
 wait-title = One moment, please
 wait-line = It goes on by itself.
@@ -227,5 +230,6 @@ stop-title = Do you want to stop?
 stop-line-nothing = Nothing about you is stored.
 stop-line-kept = What was recorded so far is kept, marked as unfinished. With this code you can have it deleted:
 stop-line-deleted = What was recorded so far is deleted.
+stop-code = Photograph this code
 stop-yes = Stop now
 stop-no = Go on

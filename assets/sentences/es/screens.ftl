@@ -203,12 +203,15 @@ scroll-more = Hay más abajo
 still-there-title = ¿Sigues ahí?
 still-there-line = Si no, me preparo para la siguiente persona.
 still-there-yes = Sigo aquí
-# the unit of the seconds that are left, below their number: short
-still-there-second = seg
+# below the number of seconds that are left: the first where it is 1
+still-there-second = segundo
+still-there-seconds = segundos
 pause-title = Una breve pausa
-pause-line = Seguimos en un momento.
+pause-line = Las personas de esta mesa necesitan un momento.
+pause-kept = No se pierde nada. Seguirá por sí solo.
 # time: when the people at the table are back, such as 14:05
 pause-back = Volvemos a las { $time }.
+pause-then = Entonces podrás jugar.
 pause-help = Pide ayuda a las personas de esta mesa, por favor.
 wait-title = Un momento, por favor
 wait-line = Continúa por sí solo.
@@ -228,5 +231,6 @@ stop-title = ¿Quieres parar?
 stop-line-nothing = No se guarda nada sobre ti.
 stop-line-kept = Lo registrado hasta ahora se conserva, marcado como incompleto. Con este código puedes pedir que se borre:
 stop-line-deleted = Lo registrado hasta ahora se borra.
+stop-code = Haz una foto de este código
 stop-yes = Parar ahora
 stop-no = Seguir

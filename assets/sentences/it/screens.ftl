@@ -207,12 +207,15 @@ scroll-more = Sotto c'è altro
 still-there-title = Ci sei ancora?
 still-there-line = Altrimenti mi preparo per la prossima persona.
 still-there-yes = Sono ancora qui
-# the unit of the seconds that are left, below their number: short
-still-there-second = sec
+# below the number of seconds that are left: the first where it is 1
+still-there-second = secondo
+still-there-seconds = secondi
 pause-title = Una breve pausa
-pause-line = Si continua tra un momento.
+pause-line = Le persone a questo tavolo hanno bisogno di un momento.
+pause-kept = Non si perde nulla. Riprende da solo.
 # time: when the people at the table are back, such as 14:05
 pause-back = Si torna alle { $time }.
+pause-then = Allora potrai giocare.
 pause-help = Chiedi aiuto alle persone a questo tavolo.
 wait-title = Un momento, per favore
 wait-line = Continua da solo.
@@ -232,5 +235,6 @@ stop-title = Vuoi smettere?
 stop-line-nothing = Non viene conservato nulla su di te.
 stop-line-kept = Quanto registrato finora resta conservato, segnato come incompleto. Con questo codice puoi farlo cancellare:
 stop-line-deleted = Quanto registrato finora viene cancellato.
+stop-code = Fotografa questo codice
 stop-yes = Smetti ora
 stop-no = Continua

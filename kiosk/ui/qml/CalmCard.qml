@@ -12,8 +12,11 @@ FocusScope {
     property real lineSize: Theme.body
     // Whether the line is what matters most, and is then as large as a title.
     property bool lineFirst: false
-    // What is to be noted down, large on a line of its own; empty for none.
+    // What stands below that line; empty for none.
+    property string more: ""
+    // What is to be taken along, and what to do with it; empty for none.
     property string code: ""
+    property string codeTitle: ""
     // The lines of a drawing above the title, on a square of 24; empty for none.
     property string sign: ""
     // Where the face of the one who asks is, at which the card then stands; null where there is none.
@@ -34,7 +37,7 @@ FocusScope {
     // How high it is at least, and how wide where a face is beside it, or where none is.
     property real least: 0
     readonly property real broadest: 1214 * Theme.unit
-    readonly property real broad: 900 * Theme.unit
+    readonly property real broad: (Theme.textSize > 1.15 ? 1120 : 900) * Theme.unit
     // How much of what is below is covered; a card that covers most of it hides the remains as well.
     readonly property real veil: speaker > 0 || beside > 0 ? 1 : 0.94
     // What lies there face down instead of a drawing; empty for none.
@@ -47,9 +50,10 @@ FocusScope {
     property var choices: []
     signal chosen(string name)
     // How long it stays, in ms, or 0 where that is not known. The seconds that are left, with their unit, then stand in
-    // place of the drawing.
+    // place of the drawing; the last one has a word of its own.
     property int lasts: 0
     property string second: ""
+    property string seconds: ""
 
     onVisibleChanged: if (visible) buttons.take()
 
@@ -84,7 +88,8 @@ FocusScope {
 
     Column {
         anchors.horizontalCenter: parent.horizontalCenter
-        y: (card.y - height) / 2
+        // Closer to the card than to the edge.
+        y: 0.68 * (card.y - height)
         visible: calm.spread
         spacing: 1.5 * Theme.gap
         Repeater {
@@ -98,7 +103,7 @@ FocusScope {
                     model: row.modelData
                     Lying {
                         many: row.modelData
-                        slot: Math.min(270 * Theme.unit, 0.36 * card.y)
+                        slot: Math.min(230 * Theme.unit, 0.3 * card.y)
                     }
                 }
             }
@@ -106,6 +111,7 @@ FocusScope {
     }
     Rectangle {
         id: card
+        objectName: "calm-card"
         x: Math.round(calm.beside === 0 ? calm.middle.x - width / 2 : calm.atLeft ? calm.bound - 6 * Theme.unit : calm.bound + 6 * Theme.unit - width)
         y: Math.round(calm.speaker > 0 ? Math.max(2 * Theme.gap, calm.speaker - height - calm.tail - 0.5 * Theme.gap)
            : Math.max(Math.min(Theme.gap, (parent.height - height) / 2), Math.min(calm.middle.y - height / 2, parent.height - height - Theme.gap)))
@@ -128,17 +134,16 @@ FocusScope {
                 spacing: 1.2 * Theme.gap
                 Repeater {
                     model: calm.lies && !calm.spread ? 3 : 0
-                    Lying { slot: (calm.beside > 0 && calm.large ? 240 : calm.large ? 200 : 130) * Theme.unit }
+                    Lying { slot: (calm.large ? 160 : 120) * Theme.unit }
                 }
             }
             CalmSign {
                 anchors.horizontalCenter: parent.horizontalCenter
-                width: (calm.lasts > 0 ? (calm.roomy ? 360 : calm.speaker > 0 ? 220 : 200)
-                    : calm.roomy ? 190 : calm.large ? 150 : 112) * Theme.unit
-                enlarged: (calm.roomy ? 4.2 : calm.large ? 3.4 : 2.6) * Theme.unit
+                width: (calm.lasts > 0 ? (calm.roomy ? 410 : calm.speaker > 0 ? 230 : 220) : calm.roomy ? 140 : 96) * Theme.unit
                 sign: calm.sign
                 lasts: calm.lasts
                 second: calm.second
+                seconds: calm.seconds
             }
             Balanced {
                 width: parent.width
@@ -156,26 +161,25 @@ FocusScope {
                 visible: text !== ""
                 text: calm.line
                 font { pixelSize: calm.lineFirst ? calm.titleSize : calm.lineSize; bold: calm.lineFirst }
-                color: calm.lineFirst ? Theme.sea : Theme.faintInk
+                color: calm.lineFirst ? Theme.sea : Theme.ink
                 horizontalAlignment: Text.AlignHCenter
             }
-            // Apart from what can be pressed, and nothing around it: it is no button.
-            Item {
-                visible: calm.code !== ""
+            Balanced {
                 width: parent.width
-                height: noted.height + (calm.roomy ? 0.5 : 1) * Theme.gap
-                PlainText {
-                    id: noted
-                    objectName: "noted"
-                    width: parent.width
-                    visible: text !== ""
-                    text: calm.code
-                    font { pixelSize: calm.roomy ? Theme.size(84) : calm.large ? Theme.size(72) : Theme.figure; bold: true; letterSpacing: 4 * Theme.unit }
-                    fontSizeMode: Text.HorizontalFit
-                    minimumPixelSize: Theme.body
-                    color: Theme.sea
-                    horizontalAlignment: Text.AlignHCenter
-                }
+                visible: text !== ""
+                text: calm.more
+                font.pixelSize: calm.lineSize
+                color: Theme.ink
+                horizontalAlignment: Text.AlignHCenter
+            }
+            CalmCode {
+                anchors.horizontalCenter: parent.horizontalCenter
+                visible: calm.code !== ""
+                width: calm.roomy ? parent.width : Math.min(parent.width, Theme.size(760))
+                code: calm.code
+                title: calm.codeTitle
+                large: calm.large
+                roomy: calm.roomy
             }
             CalmChoices {
                 id: buttons
@@ -184,6 +188,8 @@ FocusScope {
                 choices: calm.choices
                 large: calm.large
                 roomy: calm.roomy
+                // As far from a frame as it needs to be seen that it belongs to the words.
+                above: calm.code !== "" && calm.large ? (calm.roomy ? 1 : 0.5) * Theme.gap : 0
                 onChosen: name => calm.chosen(name)
             }
         }

@@ -12,6 +12,8 @@ Flow {
     // Whether there is room for a distance above a button alone, and whether words can be larger.
     required property bool large
     required property bool roomy
+    // What is free above several.
+    property real above: 0
     signal chosen(string name)
 
     // All there is to do, perhaps in a hurry, is as wide as the card.
@@ -37,7 +39,7 @@ Flow {
 
     visible: choices.length > 0
     layoutDirection: pair && !Theme.mirrored ? Qt.RightToLeft : Qt.LeftToRight
-    topPadding: alone && large ? Theme.gap : 0
+    topPadding: alone && large ? Theme.gap : above
     width: Math.min(most, Math.ceil(needed))
     spacing: (buttons.count === 2 ? 2 : 1) * Theme.gap
     Repeater {
@@ -50,8 +52,8 @@ Flow {
             objectName: modelData.name
             most: flow.most
             width: flow.alone || flow.two && !flow.pair ? most : flow.pair ? Math.floor(flow.half) : Math.min(wish, most)
-            font.pixelSize: Theme.size(flow.alone ? 50 : flow.roomy ? 40 : 36)
-            verticalPadding: (flow.alone ? 36 : 30) * Theme.unit
+            font.pixelSize: Theme.size(flow.alone ? (flow.roomy ? 56 : 50) : flow.roomy ? 48 : flow.large && Theme.textSize <= 1.15 ? 44 : 36)
+            verticalPadding: (flow.alone ? (flow.roomy ? 42 : 36) : flow.roomy ? 36 : 30) * Theme.unit
             words: modelData.words
             quiet: modelData.quiet ?? false
             onClicked: flow.chosen(modelData.name)

@@ -7,16 +7,17 @@ import "."
 Rectangle {
     id: badge
 
-    // The lines of the drawing, on a square of 24, and how much these are enlarged; empty for none.
+    // The lines of the drawing, on a square of 24; empty for none.
     required property string sign
-    required property real enlarged
     // How long the card stays, in ms; 0 where that is not known.
     required property int lasts
-    // The unit of the seconds.
+    // The unit of the last of the seconds, and of those before.
     required property string second
+    required property string seconds
 
     readonly property int steps: 40
     property int msLeft: 0
+    readonly property int secondsLeft: Math.ceil(msLeft / 1000)
     // Where nothing moves, the ring stays whole.
     readonly property int stepsLeft: Theme.motion === 0 ? steps : Math.ceil(steps * msLeft / Math.max(1, lasts))
 
@@ -70,7 +71,7 @@ Rectangle {
         anchors { centerIn: parent; verticalCenterOffset: -0.1 * badge.width }
         visible: badge.lasts > 0
         width: 0.8 * badge.width
-        text: Math.ceil(badge.msLeft / 1000)
+        text: badge.secondsLeft
         font { pixelSize: 0.46 * badge.width; bold: true }
         fontSizeMode: Text.HorizontalFit
         minimumPixelSize: Theme.body
@@ -81,16 +82,18 @@ Rectangle {
         objectName: "seconds-unit"
         anchors { centerIn: parent; verticalCenterOffset: 0.26 * badge.width }
         visible: badge.lasts > 0
-        width: 0.66 * badge.width
-        text: badge.second
-        font.pixelSize: Math.max(24 * Theme.unit, 0.16 * badge.width)
+        width: 0.72 * badge.width
+        text: badge.secondsLeft === 1 ? badge.second : badge.seconds
+        font.pixelSize: Math.max(24 * Theme.unit, 0.15 * badge.width)
+        fontSizeMode: Text.HorizontalFit
+        minimumPixelSize: 24 * Theme.unit
         horizontalAlignment: Text.AlignHCenter
         Accessible.ignored: true
     }
     Drawing {
         anchors.centerIn: parent
         visible: badge.lasts === 0
-        scale: badge.enlarged
+        scale: badge.width / 43
         path: badge.sign
         ink: Theme.ink
         thick: 2.2

@@ -283,14 +283,15 @@ Window {
             // Beside the assistant, or above it.
             middle: layout.whole ? Qt.point(root.width / 2, root.room / 2)
                   : layout.wide ? layout.pageMiddle : Qt.point(root.width / 2, 0.36 * root.room)
-            least: (roomy ? 480 : large ? 740 : 500) * Theme.unit
+            least: (roomy ? 480 : large ? 660 : 500) * Theme.unit
             cardBack: root.cardBack
             cardShadow: root.cardShadow
             title: root.words["pause-title"]
-            titleSize: Theme.size(roomy ? 88 : 84)
+            titleSize: Theme.size(roomy ? 96 : 84)
             line: root.kiosk.pauseLine
+            more: root.kiosk.pauseMore
             lineFirst: root.kiosk.pauseEnds
-            lineSize: Theme.size(roomy ? 54 : 50)
+            lineSize: Theme.size(large ? 46 : 42)
         }
     }
     Prompt {

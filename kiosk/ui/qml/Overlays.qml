@@ -38,9 +38,10 @@ Item {
             title: overlays.words["still-there-title"]
             titleSize: roomy ? Theme.size(88) : beside > 0 && Theme.textSize <= 1 ? Theme.size(76) : Theme.figure
             line: overlays.words["still-there-line"]
-            lineSize: Theme.size(roomy ? 42 : large ? 40 : 36)
+            lineSize: Theme.size(roomy ? 46 : large ? 42 : 36)
             lasts: overlays.timed ? overlays.kiosk.answerMs : 0
             second: overlays.words["still-there-second"]
+            seconds: overlays.words["still-there-seconds"]
             choices: [{ name: "still-here", words: overlays.words["still-there-yes"] }]
             onChosen: overlays.kiosk.confirm()
         }
@@ -50,14 +51,16 @@ Item {
         sourceComponent: CalmCard {
             focus: true
             windowLayout: overlays.windowLayout
-            least: (roomy ? 1130 : speaker > 0 && overlays.windowLayout.board !== null ? 900 : 0) * Theme.unit
+            // Above a face it reaches up to the distance that a page has from the edge.
+            least: roomy ? speaker - 5 * Theme.gap : speaker > 0 && overlays.windowLayout.board !== null ? 900 * Theme.unit : 0
             // A door, and the way out of it.
             sign: "M13 4 H5 V20 H13 M10 12 H20 M16 8 L20 12 L16 16"
             title: overlays.words["stop-title"]
             titleSize: roomy ? Theme.size(80) : Theme.figure
             line: overlays.kiosk.stopLine
-            lineSize: roomy ? Theme.size(44) : large ? Theme.size(36) : Theme.body
+            lineSize: roomy ? Theme.size(46) : large ? Theme.size(40) : Theme.body
             code: overlays.kiosk.stopCode
+            codeTitle: overlays.words["stop-code"]
             // Neither is the quieter one: to stop is as easy to see as to go on.
             choices: [{ name: "stop-no", words: overlays.words["stop-no"] }, { name: "stop-yes", words: overlays.words["stop-yes"] }]
             onChosen: name => name === "stop-yes" ? overlays.kiosk.stop() : overlays.kiosk.ask("")

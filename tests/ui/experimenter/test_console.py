@@ -128,6 +128,7 @@ def test_a_pause_says_when_it_goes_on_and_is_no_longer_than_the_session_allows(m
     assert kiosk.property("paused")
     assert kiosk.back_at in times(10)
     assert kiosk.property("pauseLine") == f"Back at {kiosk.back_at}."
+    assert kiosk.property("pauseMore") == "Nothing is lost. It goes on by itself."
     assert kiosk.property("pauseEnds"), "the time is then the largest of its words"
     assigner.do(Action.PAUSE)
     assert not kiosk.property("paused")
@@ -154,6 +155,7 @@ def test_a_break_between_visitors_takes_none_until_it_is_ended(assigner: Desk, e
     assigner.shortcut(Action.PANEL)
     assert assigner.screen == "pause"
     assert kiosk.property("pauseLine").removeprefix("Back at ").removesuffix(".") in times(30)
+    assert kiosk.property("pauseMore") == "You can play then.", "nothing of a visitor's is there to be lost"
     assigner.app.runner.start("en")
     assert assigner.screen == "pause"
     assigner.open_panel()
