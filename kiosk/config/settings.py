@@ -103,7 +103,7 @@ class Settings(ConfigModel):
             strict=False,
             description="The questionnaires after the game: names, or paths.",
         ),
-    ] = ("social-intelligence", "trust")
+    ] = ("social-intelligence", "trust", "another-game")
     game: Game = Game()
     practice: Practice = Practice()
     assistance: AssistanceConfig = AssistanceConfig()

@@ -366,7 +366,7 @@ STUDIES: dict[str, Bad] = {
     "unknown questionnaire": Bad(
         "about_you = 'me'",
         (
-            "{study}: about_you: there is no questionnaire 'me' (shipped are about-you, gallery, "
+            "{study}: about_you: there is no questionnaire 'me' (shipped are about-you, another-game, gallery, "
             "psi, social-intelligence, trust), and nothing at {here}/me",
         ),
     ),

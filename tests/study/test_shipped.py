@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from kiosk.config import ASSETS
+from kiosk.config import ASSETS, Settings
 from kiosk.experiment.information import Information, check_alike
 from kiosk.experiment.items import Likert, Rating
 from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
+from kiosk.study.new import templates
 
 LANGUAGES = ("en", "it", "es")
 QUESTIONNAIRES = sorted((ASSETS / "questionnaires").glob("*.toml"))
@@ -89,10 +90,21 @@ def test_the_answers_about_robots_are_the_five_of_the_study() -> None:
     assert [question.id for question in questionnaire.questions if question.required is True] == []
 
 
-def test_the_form_about_trust_has_a_rating_of_ten_points_beside_its_scale() -> None:
-    alone = [item for item in shipped("trust").questions if item.scale is None]
-    assert [(item.id, item.points) for item in alone if isinstance(item, Likert)] == [("TR4", 10)]
-    assert [item.id for items in shipped("trust").scales.values() for item in items] == ["TR1", "TR2", "TR3"]
+def test_the_form_about_trust_is_its_scale_and_the_rating_of_ten_points_is_asked_apart_and_last() -> None:
+    trust, alone = shipped("trust"), shipped("another-game")
+    assert {name: [item.id for item in items] for name, items in trust.scales.items()} == {
+        "TRUST": ["TR1", "TR2", "TR3"]
+    }
+    assert [item.id for item in trust.items] == ["TR1", "TR2", "TR3"]
+    assert [(item.id, item.points, item.scale) for item in alone.items if isinstance(item, Likert)] == [
+        ("TR4", 10, None)
+    ]
+    assert len(alone.items) == 1
+    assert alone.title != trust.title
+    named = [Settings().questionnaires, *(tuple(each.study.get("questionnaires", ())) for each in templates().values())]
+    asked = [names for names in named if "another-game" in names]
+    assert len(asked) == 4
+    assert {names[-1] for names in asked} == {"another-game"}
 
 
 # Information sheets
