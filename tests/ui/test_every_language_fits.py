@@ -514,11 +514,18 @@ def test_title_and_ways_stand_at_the_same_places_on_all_pages(
     assert len({middle for _, middle in on} - {None}) == 1
 
 
+SIXTEEN = ASKED["social-intelligence"].items
+"""The items of the study that stand on pages of four."""
+ALONE = ASKED["another-game"].items
+"""The one that has a page of its own."""
+MIXED = ASKED["trust"].items + ALONE
+"""A page of three ratings of five points and one of ten, as another questionnaire may have."""
+
+
 def rating_pages(
-    kiosk: tuple[Window, StudyConfig], layout: Layout
+    kiosk: tuple[Window, StudyConfig], layout: Layout, asked_of: Sequence[Item] = SIXTEEN
 ) -> Iterator[list[tuple[int, QRectF, QRectF, QRectF]]]:
     """Show each page of four ratings; yield each item's points and the places of its card, statement and scale."""
-    asked_of = ASKED["social-intelligence"].items + ASKED["trust"].items
     rated = [item for item in asked_of if isinstance(item, Likert)]
     assert len(rated) == len(asked_of)
     screens, ground = kiosk[0].screens, kiosk[0].shown.contentItem()
@@ -545,22 +552,17 @@ def test_cards_stand_at_the_same_places_on_all_pages_of_four_ratings(
     kiosk: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
     pages = list(rating_pages(kiosk, layout))
-    assert len({(round(page[0][1].top()), round(page[-1][1].bottom())) for page in pages}) == 1
     # On a wide page ten points have a higher card, for which the others make room.
-    even = [page for page in pages if layout.width < layout.height or {points for points, *_ in page} == {FIVE}]
-    assert len(even) > 3
-    assert len({tuple(round(card.y()) for _, card, _, _ in page) for page in even}) == 1
-    assert len({round(card.height()) for page in even for _, card, _, _ in page}) == 1
-    assert len({gap for page in even for gap in gaps(page)}) == 1
+    pages += rating_pages(kiosk, layout, MIXED) if layout.width < layout.height else ()
+    assert len(pages) > 3
+    assert len({tuple(round(card.y()) for _, card, _, _ in page) for page in pages}) == 1
+    assert len({round(card.height()) for page in pages for _, card, _, _ in page}) == 1
+    assert len({gap for page in pages for gap in gaps(page)}) == 1
 
 
 def gaps(page: list[tuple[int, QRectF, QRectF, QRectF]]) -> list[int]:
     """Return how far the cards of a page of ratings are apart."""
     return [round(after.top() - card.bottom()) for (_, card, _, _), (_, after, _, _) in pairwise(page)]
-
-
-FIVE = 5
-"""How many points the scales have that stand at the same places on all pages."""
 
 
 @pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)
@@ -570,8 +572,7 @@ def test_scales_of_ratings_stand_at_the_same_places_on_all_pages(
     places = {
         (round(scale.x()), round(scale.center().y() - card.center().y()), round(scale.width()), round(scale.height()))
         for page in rating_pages(kiosk, layout)
-        for points, card, _, scale in page
-        if points == FIVE
+        for _, card, _, scale in page
     }
     assert len(places) == 1
 
@@ -579,7 +580,7 @@ def test_scales_of_ratings_stand_at_the_same_places_on_all_pages(
 def test_ten_points_of_a_wide_page_are_as_large_as_five_and_stand_below_their_question_and_apart(
     kiosk: tuple[Window, StudyConfig],
 ) -> None:
-    *_, page = rating_pages(kiosk, Layout(1920, 1080))
+    (page,) = rating_pages(kiosk, Layout(1920, 1080), MIXED)
     *fives, (points, card, shown, scale) = page
     assert points == 10
     *usual, apart = gaps(page)
@@ -588,14 +589,16 @@ def test_ten_points_of_a_wide_page_are_as_large_as_five_and_stand_below_their_qu
     assert {(round(five.height()), round(five.right())) for *_, five in fives} == {
         (round(scale.height()), round(scale.right()))
     }
-    assert card.top() + 18 < shown.top() < shown.bottom() + 12 < scale.top() < scale.bottom() < card.bottom() - 24
+    assert card.top() + 12 < shown.top() < shown.bottom() + 12 < scale.top() < scale.bottom() < card.bottom() - 12
     assert abs((shown.top() - card.top()) - (card.bottom() - scale.bottom())) < 12
 
 
-def test_ten_points_of_an_upright_page_are_the_equal_fields_of_one_bar(kiosk: tuple[Window, StudyConfig]) -> None:
-    *_, page = rating_pages(kiosk, Layout(1080, 1920))
+def test_ten_points_among_others_of_an_upright_page_are_the_equal_fields_of_one_bar(
+    kiosk: tuple[Window, StudyConfig],
+) -> None:
+    (page,) = rating_pages(kiosk, Layout(1080, 1920), MIXED)
     points, card, _, scale = page[-1]
-    name = ASKED["trust"].items[-1].id
+    name = MIXED[-1].id
     ground = kiosk[0].shown.contentItem()
     fields = [item for n in range(1, points + 1) if (item := find_item(ground, f"answer-{name}-{n}")) is not None]
     places = [whole(field) for field in fields]
@@ -624,17 +627,80 @@ def background_of(button: QQuickItem) -> QQuickItem:
     return behind
 
 
-def test_statements_of_one_line_and_of_two_are_as_far_from_scales_at_one_depth_of_an_upright_page(
+def test_statements_of_an_upright_page_stand_in_the_middle_between_the_edge_and_scales_at_one_depth(
     kiosk: tuple[Window, StudyConfig],
 ) -> None:
     pages = list(rating_pages(kiosk, Layout(1080, 1920)))
-    gaps = {round(scale.top() - shown.bottom()) for page in pages for _, _, shown, scale in page}
-    assert len(gaps) == 1
-    assert 30 <= min(gaps) <= 44
     lines = {round(shown.height() / 50) for page in pages for _, _, shown, _ in page}
     assert lines == {1, 2}
+    # There is some air above the letters, too.
+    uneven = [
+        (shown.top() - card.top()) - (scale.top() - shown.bottom()) for page in pages for _, card, shown, scale in page
+    ]
+    assert [round(by) for by in uneven if abs(by) > 8] == []
     depths = [scale.top() - card.top() for page in pages for _, card, _, scale in page]
     assert max(depths) - min(depths) <= 1
+
+
+def test_the_words_for_the_ends_stand_once_above_the_points_of_a_wide_page_of_ratings(
+    kiosk: tuple[Window, StudyConfig],
+) -> None:
+    window, ground = kiosk[0], kiosk[0].shown.contentItem()
+    item = SIXTEEN[0]
+    assert isinstance(item, Likert)
+    for page in rating_pages(kiosk, Layout(1920, 1080)):
+        heads = [
+            [whole(text) for text in texts(ground) if text.property("text") == end["en"]]
+            for end in (item.lowest, item.highest)
+        ]
+        assert [len(places) for places in heads] == [1, 1]
+        (lowest,), (highest,) = heads
+        (_, first, _, points), *_ = page
+        assert lowest.bottom() <= first.top() + 1
+        assert first.top() - lowest.bottom() <= 12
+        assert abs(lowest.left() - points.left()) <= 1
+        assert abs(highest.right() - points.right()) <= 1
+        # Each statement has most of its card's width.
+        assert points.left() > first.left() + 0.6 * first.width()
+    assert window.shown.width() == 1920
+
+
+@pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)
+def test_ten_points_alone_on_a_page_are_large_circles_from_edge_to_edge_below_a_large_question(
+    kiosk: tuple[Window, StudyConfig], layout: Layout
+) -> None:
+    ((one,),) = rating_pages(kiosk, layout, ALONE)
+    _, card, shown, scale = one
+    ground = kiosk[0].shown.contentItem()
+    places = [
+        whole(point) for n in range(1, 11) if (point := find_item(ground, f"answer-{ALONE[0].id}-{n}")) is not None
+    ]
+    assert len(places) == 10
+    wide = layout.width > layout.height
+    assert {round(side) for place in places for side in (place.width(), place.height())} == {round(places[0].width())}
+    assert places[0].width() >= (90 if wide else 80)
+    assert all(after.left() - point.right() >= 8 for point, after in pairwise(places))
+    assert abs((scale.left() - card.left()) - (card.right() - scale.right())) <= 1
+    assert scale.width() > 0.93 * card.width()
+    asked = next(text for text in texts(ground) if text.property("text").replace("\xa0", " ") == ALONE[0].text["en"])
+    assert asked.property("font").pixelSize() >= 50
+    assert card.top() + 30 < shown.top() < shown.bottom() + 30 < scale.top() < scale.bottom() + 30 < card.bottom()
+
+
+@pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)
+def test_a_line_of_as_many_parts_as_pages_stands_below_the_title_in_place_of_the_dots(
+    kiosk: tuple[Window, StudyConfig], layout: Layout
+) -> None:
+    ground = kiosk[0].shown.contentItem()
+    for page in rating_pages(kiosk, layout):
+        line, title = find_item(ground, "page-line"), find_item(ground, "page-title")
+        assert line is not None
+        assert title is not None
+        assert line.property("pages") == 5
+        assert whole(title).bottom() <= whole(line).top() < whole(line).bottom() < page[0][1].top()
+        assert round(whole(line).width()) == round(page[0][1].width())
+        assert find_item(ground, "form-progress") is not None
+        assert find_item(ground, "progress") is None
 
 
 @pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920), Layout(1080, 1920, robot=True)], ids=str)
@@ -655,8 +721,10 @@ def test_the_avatar_shows_its_back_at_one_place_on_the_pages_that_rate_it_and_no
             continue
         # On the lower edge of the window, in full size, with one line beside it.
         assert 0 <= whole(back).left() - whole(why).right() <= 16
+        if layout.width > layout.height:
+            assert abs(whole(why).united(whole(back)).center().x() - layout.width / 2) < 1
         assert abs(whole(back).bottom() - layout.height) < 1
-        assert whole(back).height() >= 148
+        assert whole(back).height() >= 180
         assert why.property("lineCount") == 1
         assert 34 <= why.property("font").pixelSize() <= 36
     screens.avatar.leave(away=False)
@@ -713,7 +781,7 @@ def test_a_long_title_of_a_questionnaire_stands_clear_of_the_controls(
     window, title = kiosk[0], "How far do you agree with each of these sentences about the helper of your game?"
     assert list(shown_in(kiosk, layout, ("trust",))) == ["trust"]
     window.screens.avatar.leave(away=True)
-    for items in (ASKED["trust"].items, ASKED["trust"].items[:1]):
+    for items in (ASKED["trust"].items, ALONE):
         window.screens.form.show(items, 10, 12, (), {"en": title})
         for board_on_right in (True, False):
             window.shown.setProperty("boardOnRight", board_on_right)

@@ -25,13 +25,17 @@ PageFrame {
     readonly property real backTakes: way.backWish
     readonly property real onTakes: {
         const label = text => wordWidths.bold(text, way.letters) + 2 * way.button.leftPadding
-        const reasons = form.reasons.map(reason => wordWidths.slack * wordWidths.plain(reason, Theme.size(28)))
+        const reasons = form.reasons.map(reason => wordWidths.slack * wordWidths.plain(reason, Theme.size(32)))
         return Math.max(label(words["form-skip"]), label(words["form-next"]) + Theme.gap + Math.max(0, ...reasons))
     }
+    // Whether the helper stands behind a wide page, with its back to it, and how much height above the ways is its back's.
+    property bool turned: false
+    readonly property real kept: turned && !shape.upright && shape.rates && Theme.textSize <= 1.15
+        ? Math.max(0, 200 * Theme.unit - (height - foot + Theme.gap)) : 0
     // Whether it is and stays so.
     readonly property bool still: keyboard.field === null && (shape.upright || !pane.long)
 
-    wider: !shape.alone && shape.rates
+    wider: shape.rates && (!shape.alone || shape.solo)
     title: form.title
     // A long title of a questionnaire's own would reach the controls.
     cornered: shape.upright ? 0 : Math.max(0, 360 * Theme.unit - (width - column) / 2)
@@ -64,7 +68,7 @@ PageFrame {
         upright: view.width < view.height
         accompanied: view.accompanied
         column: view.column
-        room: view.room
+        room: view.room - view.kept
     }
     RatingRows {
         id: ratingRows
@@ -126,7 +130,7 @@ PageFrame {
         parent: view.way
         visible: !view.way.fills && view.way.waits && text !== "" && width + 2 * Theme.gap < view.way.freeRoom
         text: view.form.waiting
-        font.pixelSize: Theme.size(28)
+        font.pixelSize: Theme.size(32)
         color: Theme.faintInk
         x: Theme.across(parent.width - width - view.way.button.width - Theme.gap, width, parent.width)
         y: (view.way.button.height - height) / 2
@@ -166,7 +170,7 @@ PageFrame {
     }
     FocusScope {
         id: home
-        y: shape.alone ? Math.max(shape.lead, view.sink(height)) : shape.lead
+        y: shape.alone ? Math.max(shape.lead, shape.solo && shape.upright ? (shape.free - height) / 4 : view.sink(height)) : shape.lead
         width: parent?.width ?? 0
         height: pane.height
         // At first at no item: no key of the page before may answer or skip one; Tab goes to the first.
@@ -176,12 +180,12 @@ PageFrame {
         ScrollPane {
             id: pane
             width: parent.width
-            room: view.room - shape.lead
+            room: shape.free
             more: view.words["scroll-more"]
             // How far cards stand from each other at least. Options in columns leave the height for more.
             readonly property real least: plainQuestions.columns !== null ? 22 * Theme.unit : shape.gap
             // Further apart where the page has room for it; and what belongs together, too.
-            readonly property real plain: summed(box => box.plain + (plainQuestions.columns !== null ? 22 : shape.ample || shape.easy ? 24 : 30) * Theme.unit)
+            readonly property real plain: summed(box => box.plain + (plainQuestions.columns !== null ? 22 : shape.ample ? 20 : shape.easy ? 24 : 30) * Theme.unit)
                 - (plainQuestions.columns !== null ? 12 * Theme.unit : 0)
             readonly property int optionRows: summed(box => box.optionRows)
             // How much higher than usual each row of options of an upright page is.

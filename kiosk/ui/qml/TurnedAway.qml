@@ -18,7 +18,7 @@ Item {
         : windowLayout.steps.visible ? windowLayout.stepsX + windowLayout.steps.width : Theme.gap
     readonly property real to: wide ? line + form.column - (Theme.mirrored ? form.backTakes : form.onTakes) : windowLayout.cornerX
     // Where the last card can end on a wide page, and where the way on ends on an upright one.
-    readonly property real over: form.y + form.foot + (wide ? -Theme.gap : form.way.height)
+    readonly property real over: form.y + form.foot + (wide ? -Theme.gap - form.kept : form.way.height)
     readonly property real clear: (wide ? 8 : 24) * Theme.unit
     // Whether there is room for the words before it, and how much they take.
     readonly property real needs: words.width + 0.5 * Theme.gap
@@ -35,7 +35,7 @@ Item {
         objectName: "turned-away"
         x: Math.round(Math.max(away.least, Math.min(away.most, away.wished)))
         y: Math.round(away.windowLayout.room - height)
-        height: Math.min(150 * Theme.unit, away.windowLayout.room - away.over - away.clear)
+        height: Math.min(192 * Theme.unit, away.windowLayout.room - away.over - away.clear)
         visible: away.gone && away.form.still && height >= 80 * Theme.unit && away.to - away.from >= width + 2 * Theme.gap
     }
     // Measured apart: words whose width depends on their own implicit one have a binding loop when the page turns.

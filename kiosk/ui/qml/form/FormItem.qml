@@ -36,6 +36,8 @@ Item {
     readonly property bool ranged: questions.ranged(item)
     // Whether its options stand in columns.
     readonly property bool columned: questions.columns !== null
+    // Whether it has no card.
+    readonly property bool bare: page.alone && !page.solo
     signal entered(Item field)
 
     readonly property var answer: form.answers[item.id]
@@ -46,19 +48,20 @@ Item {
     // How high it is without all that, and how much can be added to the distances.
     readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asks + (way.active ? usualSpacing + (choices?.least ?? way.height) : 0)) + 2 * usualMargin
     // How much height its question and its scale leave of what two lines and a scale of five points take: on such a page
-    // all cards are as high, and cards and scales stand at the same places on all pages.
+    // all cards are as high, and cards and scales stand at the same places on all pages. A question of one line stands in
+    // the middle of the height of two.
     readonly property real lacks: page.ample ? Math.max(0, Math.ceil((1 + question.lineHeight) * lineOf.height) - told.height) : 0
     readonly property real leaves: lacks + (page.ample ? 2 * ((way.item as PointScale)?.inset ?? 0) : 0)
     readonly property real asks: told.height + leaves
     readonly property real addable: page.alone || beside ? 0 : (page.ample ? 48 : 32) * Theme.unit
     // A word that it is missed, which stands there, takes some of it: four such cards still fit an upright page.
-    readonly property real usualSpacing: page.alone ? 2 * Theme.gap : (page.dense ? 4 : page.ample ? Theme.textSize > 1 ? 18 : missed ? 24 : 36 : page.easy ? 18 : page.airy ? 22 : columned ? 12 : page.calm ? 14 : 8) * Theme.unit
+    readonly property real usualSpacing: page.alone ? (page.solo && page.airy ? 2.6 : 2) * Theme.gap : (page.dense ? 4 : page.ample ? Theme.textSize > 1 ? 16 : missed ? 8 : 18 : page.easy ? 18 : page.airy ? 22 : columned ? 12 : page.calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
-    readonly property real usualMargin: page.alone ? 0 : rows.own ? Math.max(10 * Theme.unit, rows.margin - taken / 2) : (beside ? page.dense ? 9 : 20 : page.dense ? 8 : page.tight ? 10 : page.ample ? 12 : page.easy ? inline ? 28 : 30 : page.airy ? 26 : columned ? inline ? ranged ? 16 : 8 : 16 : page.largeText ? 13 : 17) * Theme.unit
+    readonly property real usualMargin: bare ? 0 : page.solo ? (page.tight ? 20 : page.upright ? 56 : 44) * Theme.unit : rows.own || rows.table ? Math.max((rows.table ? 4 : 10) * Theme.unit, rows.margin - taken / 2) : (beside ? page.dense ? 9 : 20 : page.dense ? 8 : page.tight ? 10 : page.ample ? missed ? 10 : 20 : page.easy ? inline ? 28 : 30 : page.airy ? 26 : columned ? inline ? ranged ? 16 : 8 : 16 : page.largeText ? 13 : 17) * Theme.unit
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
-    readonly property real taken: rows.flank ? Math.max(0, told.height - rows.height) : 0
+    readonly property real taken: rows.measured ? Math.max(0, told.height - rows.height) : 0
     // Letters have some air above them already; what stands below them does not.
-    readonly property real raised: crowned ? 5 * Theme.unit : page.alone || beside || inline || page.dense ? 0 : 4 * Theme.unit
+    readonly property real raised: crowned ? 5 * Theme.unit : page.alone || beside || inline || page.dense ? 0 : (page.ample ? -6 : 4) * Theme.unit
     readonly property var ways: ({
         likert: points, differential: points, pictures: points, slider: line, single: choice, multiple: choice,
         integer: number, text: letters, page: null
@@ -107,8 +110,8 @@ Item {
     Rectangle {
         anchors { fill: parent; topMargin: box.head }
         radius: Theme.radius
-        color: box.page.alone ? "transparent" : Theme.white
-        border { color: box.missed ? Theme.deepAmber : box.crowned ? Qt.tint(Theme.white, Qt.alpha(Theme.sea, 0.5)) : Theme.edge; width: box.page.alone ? 0 : (box.missed ? 5 : 3) * Theme.unit }
+        color: box.bare ? "transparent" : Theme.white
+        border { color: box.missed ? Theme.deepAmber : box.crowned ? Qt.tint(Theme.white, Qt.alpha(Theme.sea, 0.5)) : Theme.edge; width: box.bare ? 0 : (box.missed ? 5 : 3) * Theme.unit }
     }
 
     FontMetrics {
@@ -117,7 +120,7 @@ Item {
     }
     Column {
         id: content
-        anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; verticalCenterOffset: box.head / 2 - box.raised; margins: box.page.alone ? 0 : box.page.inset }
+        anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; verticalCenterOffset: box.head / 2 - box.raised; margins: box.bare ? 0 : box.page.inset }
         spacing: box.usualSpacing
 
         Item {
@@ -130,21 +133,21 @@ Item {
             // The text is level with the points. With the light words below them, these stand a little above the middle.
             readonly property real axis: box.rows.flank ? middle : box.rows.own ? Math.max((height - way.height + scaled) / 2 + 0.3 * box.rows.margin, told.height / 2 - 8 * Theme.unit) : middle
             // Rows of one line and of two are as high; with words for its ends it is as high as a scale and a line of words.
-            readonly property real middle: Math.max(box.rows.own ? box.rows.height : scaled, told.height, box.beside && !box.page.dense ? 2 * 1.37 * box.rows.text : 0) / 2
+            readonly property real middle: Math.max(box.rows.own || box.rows.table ? box.rows.height : scaled, told.height, box.beside && !box.page.dense ? 2 * 1.37 * box.rows.text : 0) / 2
             height: box.crowned ? box.rows.flank.crownedHeight : box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : box.asks + (way.active ? content.spacing + way.height : 0)
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : (box.lacks + box.leaves) / 2
+                y: box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.leaves / 2
                 width: box.beside && !box.crowned ? box.rows.textWidth : box.inline ? asked.width - box.questions.fieldWidth : asked.width
-                spacing: box.inline ? 0 : box.page.ample ? 4 * Theme.unit : content.spacing
+                spacing: box.inline || box.rows.table ? 0 : box.page.ample ? 4 * Theme.unit : content.spacing
                 Balanced {
                     id: question
                     width: parent.width
                     text: box.item.shown
                     Accessible.name: box.item.text
                     font {
-                        pixelSize: box.item.kind === "page" ? Theme.size(36) : box.page.alone ? Theme.heading
+                        pixelSize: box.item.kind === "page" ? Theme.size(36) : box.page.solo && !box.page.largeText ? Theme.size(52) : box.page.alone ? Theme.heading
                             : box.beside || (box.item.kind === "slider" && box.rows.text > 0) ? box.rows.text
                             : box.columned ? box.questions.asking : box.page.dense ? Theme.reading : box.page.easy ? Theme.size(36) : box.page.airy ? Theme.size(38) : Theme.body
                         bold: box.item.kind !== "page"
@@ -195,7 +198,7 @@ Item {
                 id: way
                 readonly property real room: box.beside && !box.crowned ? box.rows.scaleWidth : asked.width
                 x: Theme.across(box.crowned ? 0 : box.beside ? asked.width - room : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.crowned ? asked.height - height : box.rows.flank ? asked.middle - height / 2 : box.rows.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.y + told.height + content.spacing
+                y: box.crowned ? asked.height - height : box.rows.flank ? asked.middle - height / 2 : box.rows.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.y + told.height + box.lacks / 2 + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
@@ -271,6 +274,7 @@ Item {
             headed: box.headed
             own: box.rows.own
             flank: box.rows.flank
+            table: box.rows.table
             crowned: box.crowned
             lift: box.rows.own ? 0 : box.margin + asked.middle - size / 2 + 8 * Theme.unit
             item: box.item.id
@@ -281,11 +285,12 @@ Item {
             rightEnd: box.item.right
             value: box.answer ?? 0
             alone: box.page.alone
+            full: box.page.solo
             dense: box.page.dense
             tight: box.page.tight
             large: box.page.large
-            even: box.page.ample
-            joins: box.page.upright
+            even: box.page.ample || box.page.solo && box.page.upright
+            joins: box.page.upright && !box.page.solo
             onChosen: point => box.form.rate(box.item.id, point)
         }
     }

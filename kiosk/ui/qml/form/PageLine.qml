@@ -9,6 +9,7 @@ Row {
     required property int pages
     required property int page          // from 1
 
+    objectName: "page-line"
     spacing: 8 * Theme.unit
     Repeater {
         model: line.pages

@@ -17,6 +17,8 @@ QtObject {
 
     readonly property var items: form.items
     readonly property bool alone: items.length === 1
+    // Whether it is one rating: it has a card as wide as those of several.
+    readonly property bool solo: alone && scales(items[0])
     readonly property bool dense: items.length > 4
     // Whether there is little height for what stands on the page.
     readonly property bool tight: room < 720 * Theme.unit
@@ -39,13 +41,14 @@ QtObject {
     readonly property bool rated: airy && !alone && rates
     // Whether it has height for large distances between a question and its scale, even with two lines in each card.
     readonly property bool ample: rated && items.length * (widths.leading * (2 * Theme.size(38) + Theme.size(30))
-        + (Theme.textSize > 1 ? 194 : 202) * Theme.unit) <= room - lead
+        + (Theme.textSize > 1 ? 194 : 202) * Theme.unit) <= free
 
     // Whether the page says which of the form's pages it is, and whether a line above the cards shows that too.
     readonly property bool numbered: form.progress !== ""
-    readonly property bool lined: upright && numbered
-    // How far below that line the first card begins.
-    readonly property real lead: lined && !largeText ? 28 * Theme.unit : 0
+    readonly property bool lined: numbered
+    // How far below that line the first card begins, and what it leaves of the height for cards.
+    readonly property real lead: lined && !largeText ? (upright ? 28 : 20) * Theme.unit : 0
+    readonly property real free: room - lead
     // How far cards are from each other at least.
     readonly property real gap: (dense || tight ? 8 : 12) * Theme.unit
     // How far the content of a card is from its left and right edges, and what that leaves of its width.

@@ -44,7 +44,7 @@ QtObject {
         const heights = [84, 80, 78, 77, 76, 75, 74, 72, 68].map(height => height * Theme.unit)
         const sizes = [34, 33, 32, 31, 30, 29].map(Theme.size)
         for (const size of sizes.filter(size => page.items.every(item => fits(item, size)))) {
-            const height = heights.find(height => pageHeight(size, height) <= page.room)
+            const height = heights.find(height => pageHeight(size, height) <= page.free)
             if (height !== undefined)
                 return {size, height}
         }

@@ -14,6 +14,7 @@ Item {
     required property string rightEnd
     required property int value         // the chosen point, 0 for none
     required property bool alone        // whether the page belongs to it
+    property bool full: false           // whether its points have the width of a card on that page, from edge to edge
     required property bool dense
     required property bool tight
     // Whether there is much height for the page.
@@ -25,9 +26,11 @@ Item {
     property bool own: false
     // How its row looks if they stand at both sides of the points instead, level with them; null if they do not.
     property var flank: null
-    // Whether it has the width of its card then, below its question.
+    // How its row looks if they stand once above all rows; null if they do not.
+    property var table: null
+    // Whether it has the width of its card, below its question.
     property bool crowned: false
-    // How far above the points they stand then.
+    // How far above the points the words stand in a table.
     property real lift: 0
     // Whether a row of small points is given as much height as one of large ones.
     property bool even: false
@@ -44,7 +47,7 @@ Item {
     readonly property bool joined: joins && many
     // Two fields share the line between them.
     readonly property real line: Math.max(1, Math.round(3 * Theme.unit))
-    readonly property real size: joined ? Math.floor(width) / points : spread ? Math.min(76 * Theme.unit, filling) : flank?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
+    readonly property real size: full ? Math.min(wish, filling) : joined ? Math.floor(width) / points : spread ? Math.min(76 * Theme.unit, filling) : (flank ?? table)?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
     // How high they are: much smaller ones that are given that height take it, and are easier to hit.
     readonly property bool evened: even && below && !alone && !pictured
     readonly property bool long: joined || evened && size < 0.85 * wish
@@ -60,7 +63,7 @@ Item {
     readonly property real spare: width - leftRoom - rightRoom - 2 * Theme.gap - points * size
     readonly property real least: 0.42 * size * (points - 1)
     readonly property bool below: spread || joined || !flank && (alone || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least))
-    readonly property real gap: joined ? 0 : flank && !spread ? spare / Math.max(1, points - 1) : beside || many && below && !alone ? (width - points * size) / Math.max(1, points - 1) : pictured ? 0.4 * size : alone ? (many ? 0.24 : 0.25) * size
+    readonly property real gap: joined ? 0 : full ? (width - points * size) / Math.max(1, points - 1) : flank && !spread ? spare / Math.max(1, points - 1) : beside || many && below && !alone ? (width - points * size) / Math.max(1, points - 1) : pictured ? 0.4 * size : alone ? (many ? 0.24 : 0.25) * size
         : Math.min(1.6 * size, Math.max(0.25 * size, (below ? width - points * size : spare) / Math.max(1, points - 1)))
     readonly property real span: points * size + (points - 1) * gap
 
@@ -81,21 +84,21 @@ Item {
         visible: !scale.beside || scale.own || scale.headed
         x: Theme.across(0, width, scale.width)
         y: scale.beside && !scale.own ? scale.words - height : scale.below ? row.y + row.height + scale.under : (scale.height - height) / 2
-        width: scale.below ? scale.half : scale.leftRoom
+        width: scale.table ? Math.ceil(implicitWidth) : scale.below ? scale.half : scale.leftRoom
         text: scale.leftEnd
         horizontalAlignment: scale.flank && !scale.spread ? Text.AlignRight : Text.AlignLeft
         lineHeight: scale.flank && !scale.spread ? 0.9 : 1
-        font.pixelSize: scale.flank?.end ?? (scale.own ? Theme.size(28) : scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small)
+        font.pixelSize: (scale.flank ?? scale.table)?.end ?? (scale.own ? Theme.size(28) : scale.full || scale.large ? Theme.size(Theme.textSize > 1.15 ? 30 : 34) : scale.beside || scale.alone ? Theme.size(30) : Theme.small)
         wrapMode: Text.Wrap
         color: Theme.ink
     }
     PlainText {
         id: highest
         visible: lowest.visible
-        readonly property real end: Math.max(scale.span, 2 * scale.half + Theme.gap)
+        readonly property real end: scale.table ? scale.width : Math.max(scale.span, 2 * scale.half + Theme.gap)
         x: Theme.across(scale.below ? end - width : scale.leftRoom + scale.span + 2 * Theme.gap, width, scale.width)
         y: scale.beside && !scale.own ? scale.words - height : scale.below ? lowest.y : (scale.height - height) / 2
-        width: scale.below ? scale.half : scale.rightRoom
+        width: scale.table ? Math.ceil(implicitWidth) : scale.below ? scale.half : scale.rightRoom
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
         lineHeight: lowest.lineHeight

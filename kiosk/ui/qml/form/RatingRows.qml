@@ -1,8 +1,9 @@
 // How a wide page lays out its ratings as rows, each scale beside its question. What is tried, best first:
 //
-// 1. The words for the ends of a scale stand at both sides of it (flanked).
-// 2. They stand below it (own).
-// 3. They stand above the first scale of several that have the same, as the head of a table.
+// 1. All have the same scale: the words for its ends stand once, above the first row, as the head of a table (table).
+// 2. These words stand at both sides of each scale (flanked).
+// 3. They stand below it (own).
+// 4. They stand above the first scale of several that have the same, among others.
 //
 // Where not even a table fits, and on other pages, scales stand below their questions, and there are no rows.
 import QtQuick
@@ -17,25 +18,33 @@ QtObject {
     required property list<string> notes
 
     readonly property bool possible: !page.upright && !page.alone && !page.largeText
-    // How flanked rows look, all measures of them; null if rows are not flanked.
-    readonly property var flank: !possible || page.dense || !page.rates ? null
+    // How the rows of such a table look, all measures of them; null if they are none.
+    readonly property var table: !possible || !alike() ? null : tabled()
+    // The same of flanked rows.
+    readonly property var flank: !possible || table !== null || page.dense || !page.rates ? null
         : page.items.some(many) ? flanked(true) ?? flanked(false) : flanked(false)
     // How large questions are; 0 if there are no rows.
-    readonly property real text: !possible ? 0 : flank?.text ?? tableText(2) ?? tableText(3) ?? 0
+    readonly property real text: !possible ? 0 : measured?.text ?? tableText(2) ?? tableText(3) ?? 0
     // Whether every row has the words for its own ends: the eye need not look for them.
-    readonly property bool own: flank !== null || text > 0 && page.rates && !page.dense && ownFit()
+    readonly property bool own: flank !== null || table === null && text > 0 && page.rates && !page.dense && ownFit()
+    readonly property var measured: table ?? flank
     // How much of a row is its question's and its scale's.
-    readonly property real textWidth: flank?.textWidth ?? 0.42 * page.inner
-    readonly property real scaleWidth: flank?.scaleWidth ?? 0.54 * page.inner
+    readonly property real textWidth: measured?.textWidth ?? 0.42 * page.inner
+    readonly property real scaleWidth: measured?.scaleWidth ?? 0.54 * page.inner
     // How high the content of a row is, and how much of the row is above and below that.
-    readonly property real height: flank?.height ?? 98 * Theme.unit + widths.leading * Theme.size(28)
-    readonly property real margin: flank !== null ? flank.margin - partings * parting / 2 / Math.max(1, page.seen().length) : 18 * Theme.unit
+    readonly property real height: measured?.height ?? 98 * Theme.unit + widths.leading * Theme.size(28)
+    readonly property real margin: table !== null ? table.margin : flank !== null ? flank.margin - partings * parting / 2 / Math.max(1, page.seen().length) : 18 * Theme.unit
     // How much further from the row before it a row is where only one of them has many points below its question: they
     // are seen as two kinds. The margins of all rows give it, as far as they are large enough.
     readonly property int partings: page.items.filter((_, at) => parts(at)).length
     readonly property real parting: flank === null || partings === 0 ? 0
         : Math.max(0, Math.min(36 * Theme.unit, 2 * (flank.margin - 18 * Theme.unit) * page.seen().length / partings))
 
+    // The sizes of points, of the words for their ends and of questions that a table is tried in, and in how many lines
+    // these may stand.
+    readonly property var tableTrials: [
+        [96, 32, 36, 2], [96, 32, 34, 2], [92, 30, 32, 2], [84, 28, 32, 2], [76, 28, 32, 2], [72, 28, 29, 2], [72, 28, 29, 3]
+    ]
     // The sizes of points, of the words for their ends and of questions that flanked rows are tried in, and in how many
     // lines these may stand.
     readonly property var trials: [
@@ -71,6 +80,30 @@ QtObject {
     function many(item: var): bool {
         return page.scales(item) && item.points > 7
     }
+    // Whether all items of the page are rated on the same few points with the same words for their ends.
+    function alike(): bool {
+        const one = page.items[0]
+        return page.items.length > 1 && page.items.every(item => page.scales(item) && !many(item)
+            && ["points", "left", "right"].every(key => item[key] === one[key]))
+    }
+    // How a table looks in the first sizes in which it fits; null if it fits in none. A question has the width that the
+    // points leave.
+    function tabled(): var {
+        const one = page.items[0], rows = Math.max(1, page.seen().length)
+        for (const [pointUnits, endUnits, textUnits, most] of tableTrials) {
+            const point = pointUnits * Theme.unit, end = Theme.size(endUnits), text = Theme.size(textUnits)
+            const ends = 1.03 * (widths.plain(one.left, end) + widths.plain(one.right, end)) + 1.5 * Theme.gap
+            const scaleWidth = Math.ceil(Math.max((one.points + 0.25 * (one.points - 1)) * point, ends))
+            const textWidth = page.inner - scaleWidth - 2 * Theme.gap
+            const lines = Math.max(0, ...page.items.map(item => widths.lines(item.shown, text, textWidth)))
+            const height = Math.max(point, widths.leading * text * Math.max(page.dense ? 1 : 2, lines))
+            const head = widths.leading * end + 8 * Theme.unit
+            const margin = Math.min(44 * Theme.unit, ((page.free - head) / rows - page.gap - height) / 2)
+            if (lines <= most && textWidth > 0.3 * page.inner && margin >= (page.dense ? 8 : 14) * Theme.unit)
+                return {point, end, scaleWidth, textWidth, text, height, margin}
+        }
+        return null
+    }
     // The largest questions with which a table fits, none of them in more than so many lines.
     function tableText(most: int): var {
         return [36, 32, 29].map(Theme.size).find(size => tableFits(size, most))
@@ -83,14 +116,14 @@ QtObject {
             ? Math.max((page.dense ? 72 : 92) * Theme.unit, words(item)) + (page.dense ? 18 : 40) * Theme.unit + page.gap
             : (page.dense || page.tight ? 170 : 210) * Theme.unit
         return page.items.every(item => !page.scales(item) || lines(item) <= most)
-            && page.seen().reduce((sum, item) => sum + rowHeight(item), 60 * Theme.unit) <= page.room
+            && page.seen().reduce((sum, item) => sum + rowHeight(item), 60 * Theme.unit) <= page.free
     }
     // Whether rows fit with the words for their ends below each scale, in one line.
     function ownFit(): bool {
         const rowHeight = item => page.gap + 2 * margin + Math.max(height, widths.lines(item.shown, text, textWidth) * widths.leading * text)
         const end = Theme.size(28), room = scaleWidth / 2 - Theme.gap
         return page.items.every(item => widths.bold(item.left, end) <= room && widths.bold(item.right, end) <= room)
-            && page.seen().reduce((sum, item) => sum + rowHeight(item), 0) <= page.room
+            && page.seen().reduce((sum, item) => sum + rowHeight(item), 0) <= page.free
     }
     // How flanked rows look in the first sizes in which they fit; null if they fit in none. Many points are crowned by
     // their question, or stand beside it with their words below them.
@@ -134,6 +167,6 @@ QtObject {
     // What the page's height leaves above and below each row, up to a limit. Rows of many points may be higher than others.
     function spareMargin(height: real, crownedHeight: real): real {
         const all = page.seen().reduce((sum, item) => sum + (many(item) ? crownedHeight : height), 0)
-        return Math.min(44 * Theme.unit, ((page.room - all) / Math.max(1, page.seen().length) - page.gap) / 2)
+        return Math.min(44 * Theme.unit, ((page.free - all) / Math.max(1, page.seen().length) - page.gap) / 2)
     }
 }
