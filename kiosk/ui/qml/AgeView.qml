@@ -23,8 +23,8 @@ PageFrame {
         id: answer
         // What the short word means here.
         required property string meaning
-        // A drawing of it.
-        required property string sign
+        // Whether a child is drawn beside it.
+        property bool child: false
         readonly property real inside: answers.wish - 2 * horizontalPadding
         readonly property alias lines: long.implicitHeight
 
@@ -39,7 +39,8 @@ PageFrame {
             implicitHeight: both.height
             Column {
                 id: both
-                anchors.centerIn: parent
+                // As much air above the picture as below the last line's letters, under which a line has room of its own.
+                anchors { centerIn: parent; verticalCenterOffset: view.pictured ? 0.15 * long.font.pixelSize : 0 }
                 spacing: (view.pictured && view.upright ? 1.4 : 0.5) * Theme.gap
                 Item {
                     anchors.horizontalCenter: parent.horizontalCenter
@@ -51,15 +52,10 @@ PageFrame {
                         height: width
                         radius: width / 2
                         color: Theme.white
-                        Drawing {
+                        Person {
                             anchors.centerIn: parent
-                            // Drawn about as large as it is shown: a round line that is enlarged shows its corners.
-                            width: 240
-                            height: 240
                             scale: 0.62 * view.scaled * Theme.unit
-                            path: answer.sign
-                            ink: Theme.sea
-                            thick: 16
+                            child: answer.child
                         }
                     }
                 }
@@ -123,7 +119,6 @@ PageFrame {
                 objectName: "age-yes"
                 words: view.words["age-yes"]
                 meaning: view.age.older
-                sign: "M120 15 A26 26 0 0 1 120 67 A26 26 0 0 1 120 15 M120 101 V144 M74 130 L92 96 H148 L166 130 M88 220 L120 144 L152 220"
                 focus: true
                 onClicked: view.age.answer(true)
             }
@@ -132,7 +127,7 @@ PageFrame {
                 objectName: "age-no"
                 words: view.words["age-no"]
                 meaning: view.age.younger
-                sign: "M120 84 A22 22 0 0 1 120 128 A22 22 0 0 1 120 84 M120 157 V176 M86 174 L100 152 H140 L154 174 M98 220 L120 176 L142 220"
+                child: true
                 onClicked: view.age.answer(false)
             }
         }
