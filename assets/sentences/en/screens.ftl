@@ -73,9 +73,15 @@ introduction-speech =
 introduction-speech-alone =
     .a = Hello, nice to meet you! There are { $cards } cards, and every picture is there twice. Find all the pairs. I will watch. Good luck!
     .b = Hello, I am glad you are here! { $cards } cards, { $pairs } pairs: find them all. Have fun!
-introduction-turn = Turn two cards at a time.
-introduction-match = Two alike stay open. Two different ones turn back.
-introduction-help = Now and then I give a hint. You decide whether to take it.
+introduction-turn =
+    Turn two cards.
+    Remember where each picture is.
+introduction-match =
+    Pairs stay open.
+    Two different cards turn back.
+introduction-help =
+    I give hints.
+    You decide whether to take them.
 introduction-continue = I am ready
 
 ## Practice

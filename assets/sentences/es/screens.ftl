@@ -74,9 +74,15 @@ introduction-speech =
 introduction-speech-alone =
     .a = ¡Hola, me alegro de conocerte! Hay { $cards } cartas, y cada dibujo está dos veces. Encuentra todas las parejas. Yo te miro jugar. ¡Mucha suerte!
     .b = ¡Hola, qué bien que estés aquí! { $cards } cartas, { $pairs } parejas: encuéntralas todas. ¡Que te diviertas!
-introduction-turn = Da la vuelta a dos cartas cada vez.
-introduction-match = Dos iguales se quedan a la vista. Dos distintas se vuelven a tapar.
-introduction-help = De vez en cuando te doy una pista. Tú decides si la sigues.
+introduction-turn =
+    Levanta dos cartas.
+    Recuerda dónde está cada dibujo.
+introduction-match =
+    Las parejas quedan.
+    Dos cartas distintas se tapan otra vez.
+introduction-help =
+    Yo doy pistas.
+    Tú decides si las sigues.
 introduction-continue = Empecemos
 
 ## Practice

@@ -74,9 +74,15 @@ introduction-speech =
 introduction-speech-alone =
     .a = Ciao, che piacere conoscerti! Ci sono { $cards } carte, e ogni figura c'è due volte. Trova tutte le coppie. Io ti guardo giocare. In bocca al lupo!
     .b = Ciao, che bello averti qui! { $cards } carte, { $pairs } coppie: trovale tutte. Buon divertimento!
-introduction-turn = Gira due carte alla volta.
-introduction-match = Due carte uguali restano scoperte. Due diverse si coprono di nuovo.
-introduction-help = Ogni tanto ti do un suggerimento. Sta a te decidere se seguirlo.
+introduction-turn =
+    Gira due carte.
+    Ricorda dov'è ogni figura.
+introduction-match =
+    Le coppie restano.
+    Due carte diverse si coprono di nuovo.
+introduction-help =
+    Io suggerisco.
+    Decidi tu se seguirli.
 introduction-continue = Cominciamo
 
 ## Practice

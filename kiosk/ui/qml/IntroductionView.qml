@@ -38,6 +38,18 @@ PageFrame {
     readonly property int across: abreast && room > 560 * Theme.unit ? 2 : 3
     readonly property int down: 6 / across
 
+    // Where a rule has two lines, the first is a heading; each is as large as leaves all rules three lines at most.
+    readonly property var rules: ["introduction-turn", "introduction-match", "introduction-help"].slice(0, boards).map(rule => words[rule])
+    readonly property bool plain: Theme.textSize > 1.15
+    readonly property var letters: plain ? abreast ? [29, 29] : [32, 32]
+        : (abreast ? [[40, 38], [38, 36], [37, 35], [36, 34], [35, 33], [34, 32]] : [[46, 42], [44, 40], [42, 38], [40, 36]]).find(sizes => rules.every(rule => lines(rule, sizes) <= 3)) ?? [34, 32]
+    readonly property real captionWidth: abreast ? (column - (boards - 1) * Theme.gap) / boards - 40 * Theme.unit : scenes.beside
+    WordWidths { id: widths }
+    function lines(rule: string, sizes: var): int {
+        const at = rule.indexOf("\n"), lead = at < 0 ? rule : rule.slice(0, at), rest = at < 0 ? "" : rule.slice(at + 1)
+        return widths.lines(lead, Theme.size(sizes[0]), captionWidth) + (rest === "" ? 0 : Math.ceil(widths.plain(rest, Theme.size(sizes[1])) / (0.93 * captionWidth)))
+    }
+
     // Six cards, some of them up or marked, above a sentence or beside it.
     component Scene: Rectangle {
         id: scene
@@ -52,17 +64,12 @@ PageFrame {
         // Whether it is this board's turn.
         required property bool plays
 
-        // Beside a sentence by the width alone, and above one by what is left of the height: no size follows from itself.
-        readonly property real small: Math.floor(Math.min((width - numbers - 3 * Theme.gap) / 4.6, 190 * Theme.unit,
-            ((view.room - (Theme.textSize > 1.15 ? 0 : 1.6) * Theme.gap - (view.boards - 1) * Theme.gap) / view.boards - 2 * pad - numbers) / 2))
         readonly property real most: Math.floor(Math.min((width - 2 * numbers - 0.5 * Theme.gap) / view.across,
                 (view.room - telling.height - numbers - 0.6 * Theme.gap - pad - floor) / view.down))
-        readonly property real cell: view.abreast ? scenes.cell : small
-        // Room for the arrow of a mark, above the cards.
-        readonly property real numbers: (view.abreast ? 24 : 34) * Theme.unit
-        readonly property real pad: 0.95 * Theme.gap
-        // Between cards and words beside them: about as much as before the cards, but where large words need the width.
-        readonly property real apart: (Theme.textSize > 1.15 ? 1.2 : 2) * Theme.gap
+        readonly property real cell: view.abreast ? scenes.cell : scenes.small
+        // Room for the arrow of a mark, above the cards, clear of the edge.
+        readonly property real numbers: scenes.numbers
+        readonly property real pad: scenes.pad
         // Below the words, as much as above the cards that have no arrow.
         readonly property real floor: 1.7 * Theme.gap
 
@@ -74,7 +81,7 @@ PageFrame {
 
         Item {
             id: board
-            x: view.abreast ? (scene.width - width) / 2 : Theme.across(scene.pad + scene.numbers, width, scene.width)
+            x: view.abreast ? (scene.width - width) / 2 : Theme.across(scenes.edge, width, scene.width)
             y: view.abreast ? scene.pad + scene.numbers : (scene.height - height + (scene.marked ? scene.numbers : 0)) / 2
             width: view.across * scene.cell
             height: view.down * scene.cell
@@ -118,15 +125,26 @@ PageFrame {
                 }
             }
         }
-        Balanced {
+        Column {
             id: telling
-            x: view.abreast ? (scene.width - width) / 2 : Theme.across(scene.pad + scene.numbers + board.width + scene.apart, width, scene.width)
+            // The part before a line's end, and the part after it.
+            readonly property int end: scene.text.includes("\n") ? scene.text.indexOf("\n") : scene.text.length
+            x: view.abreast ? (scene.width - width) / 2 : Theme.across(scenes.edge + board.width + scenes.apart, width, scene.width)
             y: view.abreast ? board.y + board.height + 0.6 * Theme.gap : (scene.height - height) / 2
-            width: scene.width - 2 * (view.abreast ? Math.max(scene.pad, 32 * Theme.unit) : scene.pad) - (view.abreast ? 0 : scene.numbers + 3 * scene.small + scene.apart)
-            text: scene.text
-            font { pixelSize: view.abreast ? Theme.size(Theme.textSize > 1.15 ? 29 : 34) : Theme.textSize > 1.15 ? Theme.body : Theme.size(38); bold: true }
-            horizontalAlignment: view.abreast ? Text.AlignHCenter : Text.AlignLeft
-            color: Theme.ink
+            width: view.captionWidth
+            Balanced {
+                width: parent.width
+                text: scene.text.slice(0, telling.end)
+                font { pixelSize: Theme.size(view.letters[0]); bold: true }
+                horizontalAlignment: view.abreast ? Text.AlignHCenter : Text.AlignLeft
+            }
+            Balanced {
+                width: parent.width
+                visible: text !== ""
+                text: scene.text.slice(telling.end + 1)
+                font.pixelSize: Theme.size(view.letters[1])
+                horizontalAlignment: view.abreast ? Text.AlignHCenter : Text.AlignLeft
+            }
         }
         readonly property real wish: board.y + board.height + 0.6 * Theme.gap + telling.height + floor
     }
@@ -136,6 +154,16 @@ PageFrame {
         y: view.sink(height)
         readonly property real cell: Math.min(turn.most, match.most, view.introduction.helped ? hint.most : Infinity)
         readonly property real tallest: Math.max(turn.wish, match.wish, view.introduction.helped ? hint.wish : 0)
+        // Beside a sentence by the width alone, and above one by what is left of the height: no size follows from itself.
+        readonly property real small: Math.floor(Math.min((view.column - numbers - 3 * Theme.gap) / 4.6, 190 * Theme.unit,
+            ((view.room - (view.plain ? 0 : 0.8) * Theme.gap - (view.boards - 1) * Theme.gap) / view.boards - 2 * pad - numbers) / 2))
+        // How far the cards are from a board's edges, and from an arrow's place. Below each other they are high enough.
+        readonly property real numbers: (view.abreast ? 34 : 31) * Theme.unit
+        readonly property real pad: (view.abreast ? 0.95 : 0.83) * Theme.gap
+        readonly property real edge: 0.95 * Theme.gap + numbers
+        // Between cards and words beside them: about as much as before the cards, but where large words need the width.
+        readonly property real apart: (view.plain ? 1.2 : 2) * Theme.gap
+        readonly property real beside: view.column - edge - 3 * small - apart - 0.95 * Theme.gap
         columns: view.abreast ? 3 : 1
         spacing: Theme.gap
         // Two that differ: turned one after the other, and turned back.

@@ -11,9 +11,10 @@ Shape {
     // Both stand with the middle of their height in the middle of the square.
     readonly property real headX: 41
     readonly property real headY: child ? 39 : 41
-    readonly property real face: child ? 82 : 55
+    readonly property real face: child ? 84 : 55
     readonly property real neck: face + headY - 7
-    readonly property real feet: child ? 202 : 232
+    readonly property real feet: child ? 206 : 232
+    readonly property real crown: child ? face - headY - 20 : face - 1.16 * headY
     readonly property real half: child ? 46 : 62
     // How high the rounded shoulders begin to bend.
     readonly property real bend: neck + (child ? 34 : 46)

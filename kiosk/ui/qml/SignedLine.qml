@@ -14,6 +14,7 @@ Item {
     readonly property bool signed: sign !== ""
     property bool strong: false
     property real size: Theme.body
+    property real leadSize: size
     property real leading: 1.08
 
     // On a square of 24.
@@ -84,7 +85,7 @@ Item {
             visible: text !== ""
             text: line.lead
             horizontalAlignment: Text.AlignLeft
-            font { pixelSize: line.size; bold: true }
+            font { pixelSize: line.leadSize; bold: true }
             lineHeight: line.leading
         }
         Balanced {

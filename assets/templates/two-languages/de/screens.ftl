@@ -73,9 +73,15 @@ introduction-speech =
 introduction-speech-alone =
     .a = Hallo, schön, dass du da bist! Es gibt { $cards } Karten, und jedes Bild ist zweimal da. Finde alle Paare. Ich schaue zu. Viel Glück!
     .b = Hallo, ich freue mich, dass du hier bist! { $cards } Karten, { $pairs } Paare: Finde sie alle. Viel Spaß!
-introduction-turn = Decke immer zwei Karten auf.
-introduction-match = Zwei gleiche bleiben offen. Zwei verschiedene drehen sich wieder um.
-introduction-help = Ab und zu gebe ich dir einen Tipp. Ob du ihm folgst, entscheidest du.
+introduction-turn =
+    Dreh zwei um.
+    Merk dir, wo jedes Bild ist.
+introduction-match =
+    Paare bleiben.
+    Zwei verschiedene drehen sich zurück.
+introduction-help =
+    Ich gebe Tipps.
+    Ob du ihnen folgst, entscheidest du.
 introduction-continue = Ich bin bereit
 
 ## Practice

@@ -1,0 +1,148 @@
+"""What is read before the game: headings that tell the page at a glance, and drawings that stand even."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import pytest
+from PySide6.QtCore import QRectF
+from PySide6.QtGui import QFontMetricsF
+from PySide6.QtQuick import QQuickItem
+from pytestqt.qtbot import QtBot
+
+from kiosk.assistance.wording import Catalogue
+from kiosk.config import ASSETS
+from kiosk.experiment.information import Information
+from kiosk.ui.simulated_visitor import lay_out
+from tests.samples import CATALOGUES
+from tests.ui.conftest import Booth
+from tests.ui.looking import items, lies_in, place, texts
+
+GERMAN = ASSETS / "templates" / "two-languages"
+WORDS = CATALOGUES | {"de": Catalogue(GERMAN / "de")}
+LANGUAGES = ("en", "it", "es", "de")
+SIZES = [(1920, 1080), (1080, 1920)]
+
+
+@pytest.fixture
+def booth(resting_booth: Booth) -> Booth:
+    """Return the booth that all tests of this module share."""
+    return resting_booth
+
+
+def shown(booth: Booth, qtbot: QtBot, screen: str, size: tuple[int, int], language: str = "en") -> QQuickItem:
+    """Show a page in a window of this size; return what holds all of it."""
+    window, screens = booth.app.window, booth.app.screens
+    screens.set_language(WORDS[language])
+    screens.kiosk.begin((language,), language, booth.app.assigner.study.settings.consent)
+    screens.kiosk.offer_back(offered=screen != "about")
+    folder = GERMAN / "information" if language == "de" else ASSETS / "consent" / "study"
+    screens.about.show(Information.of(folder, language).about)
+    screens.age.ask(18)
+    screens.kiosk.show(screen)
+    window.resize(*size)
+    qtbot.waitUntil(lambda: window.contentItem().width() == size[0])
+    booth.settle()
+    lay_out(window)
+    ground: QQuickItem = window.contentItem()
+    return ground
+
+
+def those(ground: QQuickItem, kind: str) -> list[QQuickItem]:
+    """Return the outermost items of one of our own components that are to be seen, in their order."""
+    found = [item for item in items(ground) if item.metaObject().className().partition("_QML")[0] == kind]
+    return [item for item in found if item.parentItem() is None or not lies_in(item.parentItem(), kind)]
+
+
+def edges(item: QQuickItem) -> QRectF:
+    """Where an item is in the window, also if it is turned or scaled."""
+    return item.mapRectToScene(QRectF(0, 0, item.width(), item.height()))
+
+
+def pixels(text: QQuickItem) -> int:
+    """How large the letters of a text are."""
+    return int(text.property("font").pixelSize())
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
+def test_each_row_of_the_first_page_is_a_bold_heading_over_smaller_plain_words(
+    booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
+) -> None:
+    rows = those(shown(booth, qtbot, "about", size, language), "SignedLine")
+    # On a wide page the helper says the last one.
+    assert len(rows) == (4 if size[0] > size[1] else 5)
+    looks = set()
+    for row in rows:
+        heading, words = texts(row)
+        assert heading.property("font").bold()
+        assert not words.property("font").bold()
+        assert heading.property("lineCount") == 1
+        looks.add((pixels(heading), pixels(words)))
+    ((of_headings, of_words),) = looks
+    assert of_headings >= 1.15 * of_words
+    assert of_words >= 36
+    tops = [edges(row).center().y() for row in rows]
+    (step,) = {round(below - above) for above, below in pairwise(tops)}
+    assert step > 0
+
+
+@pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
+def test_the_rows_of_the_first_page_end_where_the_cards_of_the_next_do(
+    booth: Booth, qtbot: QtBot, size: tuple[int, int]
+) -> None:
+    last = those(shown(booth, qtbot, "about", size), "SignedLine")[-1]
+    (drawing, *_) = last.childItems()
+    end = edges(drawing).bottom()
+    shown(booth, qtbot, "age", size)
+    assert end == pytest.approx(edges(booth.item("age-yes")).bottom(), abs=4)
+
+
+@pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
+def test_a_grown_up_and_a_smaller_child_stand_in_the_middle_of_even_cards(
+    booth: Booth, qtbot: QtBot, size: tuple[int, int]
+) -> None:
+    shown(booth, qtbot, "age", size)
+    heights = []
+    for name in ("age-yes", "age-no"):
+        card = booth.item(name)
+        (person,) = those(card, "Person")
+        disc = person.parentItem()
+        assert disc is not None
+        head, feet = (float(person.property(end)) for end in ("crown", "feet"))
+        assert (head + feet) / 2 == pytest.approx(person.height() / 2, abs=6)
+        assert (edges(person).center() - edges(disc).center()).manhattanLength() <= 2
+        heights.append(feet - head)
+        meaning = list(texts(card))[-1]
+        baseline = edges(meaning).bottom() - QFontMetricsF(meaning.property("font")).descent()
+        above, below = edges(disc).top() - edges(card).top(), edges(card).bottom() - baseline
+        assert above == pytest.approx(below, abs=6)
+    grown_up, child = heights
+    assert child < 0.85 * grown_up
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
+def test_each_rule_has_three_lines_at_most_and_all_of_them_the_same_letters(
+    booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
+) -> None:
+    scenes = those(shown(booth, qtbot, "introduction", size, language), "Scene")
+    assert len(scenes) == 3
+    looks, tops = set(), set()
+    for scene in scenes:
+        heading, words = texts(scene)
+        assert heading.property("font").bold()
+        assert not words.property("font").bold()
+        assert heading.property("lineCount") + words.property("lineCount") <= 3
+        looks.add((pixels(heading), pixels(words)))
+        tops.add(place(heading).top())
+    ((of_headings, of_words),) = looks
+    assert of_headings >= of_words >= 32
+    assert len(tops) == (1 if size[0] > size[1] else 3)
+
+
+@pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
+def test_the_arrow_of_a_rule_stands_clear_of_the_edge(booth: Booth, qtbot: QtBot, size: tuple[int, int]) -> None:
+    scene = those(shown(booth, qtbot, "introduction", size), "Scene")[-1]
+    (arrow,) = those(scene, "Arrow")
+    assert edges(arrow).top() - edges(scene).top() >= 18
