@@ -146,6 +146,16 @@ def test_the_title_ends_before_the_controls_where_a_form_has_the_whole_width(win
     window.screens.avatar.leave(away=False)
 
 
+def test_what_the_way_on_waits_for_stands_between_it_and_the_back_of_the_helper(window: Window) -> None:
+    window.screens.avatar.leave(away=True)
+    show(window, "form", RATED, RATED.model_copy(update={"id": "rated1"}))
+    told, way, back = place(window, "form-waiting"), place(window, "continue"), place(window, "turned-away")
+    assert way.right() < told.left() < told.right() <= back.left() < back.right() < place(window, "back").left()
+    group = back.united(place(window, "why-turned-away"))
+    assert abs(group.center().x() - window.shown.width() / 2) < 1
+    window.screens.avatar.leave(away=False)
+
+
 def test_a_question_begins_at_the_right_edge(window: Window) -> None:
     show(window, "form", RATED, CHOSEN)
     card = item(window, f"item-{RATED.id}")

@@ -146,7 +146,8 @@ PageFrame {
     }
     PageLine {
         visible: view.lined
-        y: -0.5 * Theme.gap
+        // Large letters have more air below them, and leave less of the height.
+        y: (shape.largeText ? -0.75 : -0.5) * Theme.gap
         width: view.column
         pages: view.form.pages
         page: view.form.page
@@ -170,7 +171,8 @@ PageFrame {
     }
     FocusScope {
         id: home
-        y: shape.alone ? Math.max(shape.lead, shape.solo && shape.upright ? (shape.free - height) / 4 : view.sink(height)) : shape.lead
+        // A rating alone on its page has a place somewhat above the middle.
+        y: shape.solo ? shape.lead + (shape.free - height) / 3 : shape.alone ? Math.max(shape.lead, view.sink(height)) : shape.lead
         width: parent?.width ?? 0
         height: pane.height
         // At first at no item: no key of the page before may answer or skip one; Tab goes to the first.

@@ -27,9 +27,8 @@ FocusScope {
     property string otherName: ""
     readonly property real letters: other === "" || fills ? Theme.onButtons : Theme.body
     readonly property alias button: go
-    // Where there is room between the way back and the way on.
-    readonly property real free: returns ? back.x + back.width : 0
-    readonly property real freeRoom: beside ? go.x - free : 0
+    // How much room there is between the way back and the way on.
+    readonly property real freeRoom: beside ? width - go.width - (returns ? back.width : 0) : 0
     // Which of the three there are. Whether they are seen depends on the page as well.
     readonly property bool goes: label !== ""
     readonly property bool refuses: other !== ""

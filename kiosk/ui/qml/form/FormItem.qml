@@ -61,7 +61,7 @@ Item {
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
     readonly property real taken: rows.measured ? Math.max(0, told.height - rows.height) : 0
     // Letters have some air above them already; what stands below them does not.
-    readonly property real raised: crowned ? 5 * Theme.unit : page.alone || beside || inline || page.dense ? 0 : (page.ample ? -6 : 4) * Theme.unit
+    readonly property real raised: crowned ? 5 * Theme.unit : page.alone || beside || inline || page.dense ? 0 : (page.ample ? missed ? 0 : -6 : 4) * Theme.unit
     readonly property var ways: ({
         likert: points, differential: points, pictures: points, slider: line, single: choice, multiple: choice,
         integer: number, text: letters, page: null

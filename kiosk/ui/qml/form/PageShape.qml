@@ -47,7 +47,7 @@ QtObject {
     readonly property bool numbered: form.progress !== ""
     readonly property bool lined: numbered
     // How far below that line the first card begins, and what it leaves of the height for cards.
-    readonly property real lead: lined && !largeText ? (upright ? 28 : 20) * Theme.unit : 0
+    readonly property real lead: !lined ? 0 : (largeText ? 8 : upright ? 28 : 20) * Theme.unit
     readonly property real free: room - lead
     // How far cards are from each other at least.
     readonly property real gap: (dense || tight ? 8 : 12) * Theme.unit
