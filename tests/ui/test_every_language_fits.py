@@ -514,6 +514,37 @@ def test_title_and_ways_stand_at_the_same_places_on_all_pages(
     assert len({middle for _, middle in on} - {None}) == 1
 
 
+@pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)
+def test_the_way_on_is_large_on_every_page_and_the_way_back_a_little_smaller(
+    kiosk: tuple[Window, StudyConfig], layout: Layout
+) -> None:
+    ground = kiosk[0].shown.contentItem()
+
+    def letters(name: str) -> dict[str, int]:
+        button = find_item(ground, name)
+        return {} if button is None else {t.objectName(): t.property("font").pixelSize() for t in texts(button)}
+
+    looked = set()
+    for moment in shown_in(kiosk, layout, FRAMED):
+        assert letters("back") == {"": 36}, moment
+        name = "agree" if moment == "consent" else "continue"
+        go = find_item(ground, name)
+        if go is None:
+            continue
+        looked.add(moment)
+        assert go.height() >= 112, moment
+        assert go.width() >= 320, moment
+        # The two answers to a consent stand beside each other on a wide page.
+        shared = moment == "consent" and layout.width > layout.height
+        assert letters(name)[""] == (36 if shared else 42), moment
+        notes = (
+            letters(name).get("note", 32),
+            *(text.property("font").pixelSize() for text in texts(ground) if text.objectName() == "form-waiting"),
+        )
+        assert min(notes) >= 32, moment
+    assert looked == set(FRAMED) - {"age"}
+
+
 SIXTEEN = ASKED["social-intelligence"].items
 """The items of the study that stand on pages of four."""
 ALONE = ASKED["another-game"].items

@@ -10,6 +10,8 @@ Button {
     required property string words
     // How wide it may be at most; its words then take more lines.
     property real most: Infinity
+    // And at least, with few words.
+    property real least: 0
     property bool quiet: false
     // A quiet one that is the way on, once what the page asks for is done: it looks at rest until then, unlike all that can be chosen.
     property bool waits: false
@@ -28,14 +30,17 @@ Button {
     property real letters: Theme.onButtons
     // How wide its words need it, within a pixel or two. Measured apart: where what lays a text out depends on the text's own
     // size, lines get lost.
-    readonly property real wish: Math.ceil(measure.advanceWidth) + 2 + leftPadding + rightPadding
+    readonly property real wish: Math.max(least, needed)
+    readonly property real needed: Math.ceil(measure.advanceWidth) + 2 + leftPadding + rightPadding
 
     width: Math.min(wish, most)
     Accessible.name: words
     focusPolicy: Qt.StrongFocus
     horizontalPadding: 56 * Theme.unit
-    // Larger letters take from the air above and below them: a row of buttons stays as high.
-    verticalPadding: 26 * Theme.unit - 0.68 * (letters - Theme.body)
+    // How high it is with one line of words: larger letters take from the air above and below them.
+    property real tall: 52 * Theme.unit + 1.36 * Theme.body
+    readonly property alias line: lines.height
+    verticalPadding: (tall - Math.ceil(line)) / 2
     font.pixelSize: letters
     font.bold: true
     scale: down ? 0.96 : 1
@@ -49,6 +54,10 @@ Button {
     Keys.onReturnPressed: event => { if (!event.isAutoRepeat) clicked() }
     Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
 
+    FontMetrics {
+        id: lines
+        font: button.font
+    }
     TextMetrics {
         id: measure
         font: button.font
@@ -71,7 +80,7 @@ Button {
         horizontalAlignment: Text.AlignHCenter
         verticalAlignment: Text.AlignVCenter
         // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
-        wrapMode: button.width < button.wish - 2 ? Text.Wrap : Text.NoWrap
+        wrapMode: button.width < button.needed - 2 ? Text.Wrap : Text.NoWrap
     }
     Text {
         id: below
@@ -82,7 +91,7 @@ Button {
         // as below the note's letters.
         y: button.noteBeside ? (parent.height - height) / 2 + 0.39 * (button.letters - letters) : (parent.height + Math.ceil(1.4 * button.letters) - height) / 2 - 2 * Theme.unit
         // As large as the words leave it height for.
-        readonly property real letters: button.noteBeside ? noted.font.pixelSize : Math.max(24 * Theme.unit, Math.min((Theme.upright ? 0.9 : 0.84) * button.letters, (button.height - 1.4 * button.letters) / 1.4))
+        readonly property real letters: button.noteBeside ? noted.font.pixelSize : Math.max(24 * Theme.unit, Math.min(0.9 * button.letters, (button.height - 1.4 * button.letters) / 1.4))
         visible: button.noteBeside || button.noteUnder
         height: button.note === "" ? 0 : Math.ceil(1.37 * letters)
         textFormat: Text.PlainText

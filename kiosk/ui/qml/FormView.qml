@@ -24,7 +24,7 @@ PageFrame {
     // and pointed out: what stands between them stays where it is.
     readonly property real backTakes: way.backWish
     readonly property real onTakes: {
-        const label = text => wordWidths.bold(text, way.letters) + 2 * way.button.leftPadding
+        const label = text => Math.max(way.button.least, wordWidths.bold(text, way.letters) + 2 * way.button.leftPadding)
         const reasons = form.reasons.map(reason => wordWidths.slack * wordWidths.plain(reason, Theme.size(32)))
         return Math.max(label(words["form-skip"]), label(words["form-next"]) + Theme.gap + Math.max(0, ...reasons))
     }

@@ -47,7 +47,7 @@ FocusScope {
     readonly property real titleMiddle: heading.y + heading.height - capitals.descent - 0.36 * heading.font.pixelSize - body.y
     readonly property bool titleInOneLine: heading.lineCount === 1
     readonly property real above: 2 * Theme.gap
-    readonly property real below: 1.6 * Theme.gap
+    readonly property real below: (width < height ? 1.5 : 1) * Theme.gap
 
     // How far below the title a content of this height stands: a little lower where there is much room.
     function sink(tall: real): real {

@@ -59,6 +59,9 @@ QtObject {
     readonly property real body: size(32)
     // An upright page's texts are larger than a wide one's, and so are the words of its buttons.
     readonly property real onButtons: size(upright && textSize <= 1.15 ? 36 : 32)
+    // The way on is what most look for on a page; the way back is a little smaller.
+    readonly property real onWays: (22 + 20 * textSize) * unit
+    readonly property real onBack: (12 + 24 * textSize) * unit
     readonly property real small: size(26)
     readonly property real reading: size(29)
     // What the experimenter reads, who sits close and wants all of it at once: 20 of 1080 lines at least.

@@ -25,7 +25,13 @@ FocusScope {
     property bool even: false
     property string name: "continue"
     property string otherName: ""
-    readonly property real letters: other === "" || fills ? Theme.onButtons : Theme.body
+    // Two that are alike beside each other on a wide page are as large as leaves each in one line.
+    readonly property real letters: !even || fills || !refuses ? Theme.onWays : [Theme.onWays, Theme.onBack].find(
+        size => Math.max(widths.bold(label, size), widths.bold(other, size)) + 2 * padding <= spread) ?? Theme.body
+    // What is beside the words of two that are alike.
+    readonly property real padding: 28 * Theme.unit
+    // How high a way on is with its words in one line.
+    readonly property real tall: Math.max(112 * Theme.unit, 52 * Theme.unit + 1.36 * Theme.body)
     readonly property alias button: go
     // How much room there is between the way back and the way on.
     readonly property real freeRoom: beside ? width - go.width - (returns ? back.width : 0) : 0
@@ -47,16 +53,16 @@ FocusScope {
     readonly property real spread: (width - (returns ? back.width + Theme.gap : 0) - Theme.gap) / 2
     // Two equal ones are higher than a single one, with air above and below a line and its note, but where the note has
     // room beside the words.
-    readonly property real stout: even && (!fills || Theme.textSize > 1.15) ? 22 * Theme.unit : 0
+    readonly property real stout: even && (!fills || Theme.textSize > 1.15) ? 10 * Theme.unit : 0
     readonly property real share: Math.min(spread, Math.max(go.wish, no.wish))
     // Large texts set both one above the other on a wide page as well, and there too they are as wide as each other.
     readonly property bool stacked: even && !fills && !beside && goes && refuses
     readonly property real pile: Math.min(width - (returns ? back.width + Theme.gap : 0), Math.max(go.wish, no.wish))
-    readonly property real step: (fills && Theme.textSize <= 1.15 ? 1.1 : 0.5) * Theme.gap
+    readonly property real step: Math.round((fills && Theme.textSize <= 1.15 ? 1.1 : 0.5) * Theme.gap)
     // How far they reach above their place.
     readonly property real over: Math.max(0, -go.y)
     // As high without a way on, so that the way back stands at the same place.
-    readonly property real tallest: level ? go.implicitHeight : !goes && !returns ? 0 : Math.max(goes ? go.height : go.implicitHeight, returns ? back.height : 0)
+    readonly property real tallest: level ? Math.round(go.implicitHeight) : !goes && !returns ? 0 : Math.max(goes ? go.height : Math.round(go.implicitHeight), returns ? back.height : 0)
 
     // Where there are too many for one row: whether the way back stands beside the way on, and leaves the other one as much
     // width if both are alike.
@@ -69,9 +75,15 @@ FocusScope {
     // The next visitor begins at the way on, whichever button the last one used.
     onVisibleChanged: go.focus = true
 
+    WordWidths {
+        id: widths
+    }
     BigButton {
         id: go
         letters: ways.letters
+        least: 320 * Theme.unit
+        tall: ways.tall
+        horizontalPadding: ways.even ? ways.padding : 56 * Theme.unit
         objectName: ways.name
         visible: ways.goes
         most: ways.width
@@ -81,7 +93,8 @@ FocusScope {
         x: Theme.across(ways.width - width, width, ways.width)
         // Where the other one has two lines, both grow up and down, and the row stays where it is.
         y: ways.level ? (ways.tallest - height) / 2 : ways.second
-        height: ways.even && ways.refuses ? Math.max(implicitHeight + ways.stout, no.implicitHeight) : implicitHeight
+        // Whole pixels: two that are alike are as high as each other.
+        height: Math.round(ways.even && ways.refuses ? Math.max(implicitHeight + ways.stout, no.implicitHeight) : implicitHeight)
         corner: ways.level ? no.topPadding + no.font.pixelSize : Infinity
         quiet: ways.quiet
         waits: ways.waits
@@ -95,7 +108,8 @@ FocusScope {
     }
     BigButton {
         id: no
-        letters: ways.letters
+        letters: ways.even ? ways.letters : Theme.onBack
+        tall: ways.tall
         objectName: ways.otherName
         visible: ways.refuses
         most: ways.width
@@ -106,24 +120,23 @@ FocusScope {
         y: ways.level ? go.y : 0
         height: ways.even ? go.height : implicitHeight
         quiet: !ways.even || ways.quiet
-        horizontalPadding: (ways.even && ways.fills ? 28 : 44) * Theme.unit
+        horizontalPadding: ways.even ? ways.padding : 44 * Theme.unit
         // Two lines need less air above and below them.
-        verticalPadding: (ways.level && wish > ways.spread ? 10 : 26) * Theme.unit
+        verticalPadding: ways.level && wish > ways.spread ? 10 * Theme.unit : (tall - Math.ceil(line)) / 2
         words: ways.other
         onClicked: ways.turnedDown()
     }
     BigButton {
         id: back
-        letters: ways.letters
+        letters: Theme.onBack
+        tall: Math.max(88 * Theme.unit, 36 * Theme.unit + 1.36 * Theme.body)
         objectName: "back"
         visible: ways.returns
         most: ways.width
         x: Theme.across(0, width, ways.width)
-        // Level with a way on of usual letters, also beside one of larger letters.
-        y: ways.beside ? ways.tallest - height - Math.min(8 * Theme.unit, (ways.tallest - height) / 2) : ways.paired ? go.y + (go.height - height) / 2 : ways.height - height
+        y: ways.beside ? (ways.tallest - height) / 2 : ways.paired ? go.y + (go.height - height) / 2 : ways.height - height
         quiet: true
         words: ways.words["control-back"]
-        verticalPadding: 18 * Theme.unit - 0.68 * (ways.letters - Theme.body)
         horizontalPadding: 40 * Theme.unit
         onClicked: ways.kiosk.goBack()
     }

@@ -55,9 +55,9 @@ Item {
     readonly property real asks: told.height + leaves
     readonly property real addable: page.alone || beside ? 0 : (page.ample ? 48 : 32) * Theme.unit
     // A word that it is missed, which stands there, takes some of it: four such cards still fit an upright page.
-    readonly property real usualSpacing: page.alone ? (page.solo && page.airy ? 2.6 : 2) * Theme.gap : (page.dense ? 4 : page.ample ? Theme.textSize > 1 ? 16 : missed ? 8 : 18 : page.easy ? 18 : page.airy ? 22 : columned ? 12 : page.calm ? 14 : 8) * Theme.unit
+    readonly property real usualSpacing: page.alone ? (page.solo && page.airy ? 2.6 : 2) * Theme.gap : (page.dense ? 4 : page.ample ? Theme.textSize > 1 ? 16 : missed ? 6 : 16 : page.easy ? 18 : page.airy ? 22 : columned ? 12 : page.calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
-    readonly property real usualMargin: bare ? 0 : page.solo ? (page.tight ? 20 : page.upright ? 56 : 44) * Theme.unit : rows.own || rows.table ? Math.max((rows.table ? 4 : 10) * Theme.unit, rows.margin - taken / 2) : (beside ? page.dense ? 9 : 20 : page.dense ? 8 : page.tight ? 10 : page.ample ? missed ? 10 : 20 : page.easy ? inline ? 28 : 30 : page.airy ? 26 : columned ? inline ? ranged ? 16 : 8 : 16 : page.largeText ? 13 : 17) * Theme.unit
+    readonly property real usualMargin: bare ? 0 : page.solo ? (page.tight ? 20 : page.upright ? 56 : 44) * Theme.unit : rows.own || rows.table ? Math.max((rows.table ? 4 : 10) * Theme.unit, rows.margin - taken / 2) : (beside ? page.dense ? 9 : 20 : page.dense ? 8 : page.tight ? 10 : page.ample ? missed ? 9 : 18 : page.easy ? inline ? 28 : 30 : page.airy ? 26 : columned ? inline ? ranged ? 16 : 8 : 16 : page.largeText ? 13 : 17) * Theme.unit
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
     readonly property real taken: rows.measured ? Math.max(0, told.height - rows.height) : 0
     // Letters have some air above them already; what stands below them does not.

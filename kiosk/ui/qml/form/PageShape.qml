@@ -41,7 +41,7 @@ QtObject {
     readonly property bool rated: airy && !alone && rates
     // Whether it has height for large distances between a question and its scale, even with two lines in each card.
     readonly property bool ample: rated && items.length * (widths.leading * (2 * Theme.size(38) + Theme.size(30))
-        + (Theme.textSize > 1 ? 194 : 202) * Theme.unit) <= free
+        + (Theme.textSize > 1 ? 190 : 198) * Theme.unit) <= free
 
     // Whether the page says which of the form's pages it is, and whether a line above the cards shows that too.
     readonly property bool numbered: form.progress !== ""
