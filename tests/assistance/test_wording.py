@@ -150,6 +150,14 @@ def test_what_the_session_says_outside_the_game_can_be_said_in_two_ways(language
 
 
 @in_every_language
+def test_what_is_said_about_result_and_end_is_not_what_the_page_says(language: Catalogue) -> None:
+    for share in ("few", "some", "many"):
+        assert not any(re.search(r"\d", said) for said in language.wordings(f"result-speech-{share}", moves=24))
+    thanks = language.text("thanks-title").strip("¡!").lower()
+    assert not any(thanks in said.lower() for said in language.wordings("thanks-speech"))
+
+
+@in_every_language
 def test_every_wording_of_the_practice_s_speech_ends_with_what_to_do(language: Catalogue) -> None:
     assert all(said.endswith(language.text("practice-turn")) for said in language.wordings("practice-speech"))
 

@@ -180,6 +180,55 @@ def test_the_helper_says_the_last_line_where_it_stands_beside_the_page(booth: Bo
     assert said() == {False}
 
 
+def found(booth: Booth, count: int) -> None:
+    """Tell the result of a game with so many pairs."""
+    cards = sorted((ASSETS / "cards" / "animals").glob("*.svg"))
+    booth.app.screens.result.show(count, 24, 57_000, 0, [card.as_uri() for card in cards[:count]])
+
+
+def bounds(item: QQuickItem) -> QRectF:
+    """Return where an item is in the window."""
+    return item.mapRectToScene(QRectF(0, 0, item.width(), item.height()))
+
+
+@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])
+def test_pictures_of_the_result_stand_in_the_middle_of_their_tiles_and_the_page_has_even_air(
+    booth: Booth, qtbot: QtBot, width: int, height: int
+) -> None:
+    found(booth, 12)
+    shown_at(booth, qtbot, "result", width, height)
+    pictures = [item for item in items(booth.app.window.contentItem()) if lies_in(item, "ResultView")]
+    pictures = [item for item in pictures if item.inherits("QQuickImage")]
+    assert len(pictures) == 12
+    for picture in pictures:
+        tile = picture.parentItem()
+        off = bounds(picture).center() - bounds(tile).center()
+        assert max(abs(off.x()), abs(off.y())) <= 1
+    shelf, board = pictures[0].parentItem().parentItem(), texts(booth)["Pairs"]
+    while not board.inherits("QQuickRectangle"):
+        board = board.parentItem()
+    between = bounds(board).top() - bounds(shelf).bottom()
+    assert bounds(booth.item("continue")).top() - bounds(board).bottom() == pytest.approx(between, abs=2)
+
+
+@pytest.mark.parametrize(("width", "height", "row"), [(1920, 1080, 4), (1080, 1920, 3)])
+def test_pictures_beside_the_thanks_stand_in_two_full_rows_as_wide_as_the_page(
+    booth: Booth, qtbot: QtBot, width: int, height: int, row: int
+) -> None:
+    found(booth, 12)
+    shown_at(booth, qtbot, "thanks", width, height)
+
+    def cards() -> list[QQuickItem]:
+        shown = [item for item in items(booth.app.window.contentItem()) if lies_in(item, "ThanksView")]
+        return [item for item in shown if item.metaObject().className().startswith("CardFace")]
+
+    qtbot.waitUntil(lambda: len(cards()) == 2 * row)
+    assert len({round(card.x()) for card in cards()}) == row
+    ways = bounds(booth.item("page-title")).united(bounds(booth.item("continue")))
+    qtbot.waitUntil(lambda: abs(min(bounds(card).left() for card in cards()) - ways.left()) < 12)
+    assert max(bounds(card).right() for card in cards()) == pytest.approx(ways.right(), abs=12)
+
+
 SIGNS = ("compare", "seen", "chance", "questions", "helper", "clock")
 
 
@@ -189,10 +238,10 @@ def points(count: int, last: str = "It is no test\nYou can ask us.") -> Page:
     return Page.model_validate({"title": "What we study", "paragraphs": paragraphs, "signs": SIGNS[:count]})
 
 
-def shown_at(booth: Booth, qtbot: QtBot, width: int, height: int) -> None:
-    """Show the debrief in a window of this size."""
+def shown_at(booth: Booth, qtbot: QtBot, screen: str, width: int, height: int) -> None:
+    """Show a screen in a window of this size."""
     window = booth.app.window
-    booth.app.screens.kiosk.show("debrief")
+    booth.app.screens.kiosk.show(screen)
     window.resize(width, height)
     qtbot.waitUntil(lambda: window.contentItem().width() == width)
     booth.settle()
@@ -209,7 +258,7 @@ def test_two_points_stand_on_cards_between_plain_lines_and_the_helper_says_the_f
 ) -> None:
     page = points(5, last)
     booth.app.screens.debrief.show(page)
-    shown_at(booth, qtbot, 1920, 1080)
+    shown_at(booth, qtbot, "debrief", 1920, 1080)
     written = texts(booth)
 
     def place(number: int) -> QPointF:
@@ -229,7 +278,7 @@ def test_on_an_upright_page_two_points_stand_on_cards_with_their_drawings_above_
     booth: Booth, qtbot: QtBot
 ) -> None:
     booth.app.screens.debrief.show(points(5))
-    shown_at(booth, qtbot, 1080, 1920)
+    shown_at(booth, qtbot, "debrief", 1080, 1920)
     written = texts(booth)
 
     def place(text: str) -> QPointF:
@@ -252,7 +301,7 @@ def test_one_to_six_points_and_the_card_to_take_home_are_seen_without_scrolling(
     booth.app.screens.debrief.show(points(count))
     booth.app.screens.debrief.give_contact(MAIL)
     booth.app.screens.debrief.give_code(CODE)
-    shown_at(booth, qtbot, width, height)
+    shown_at(booth, qtbot, "debrief", width, height)
     assert not booth.sees("more")
     code, way = booth.item("qr"), booth.item("continue")
     assert code.mapToScene(QPointF(0, code.height())).y() < way.mapToScene(QPointF(0, 0)).y()
@@ -266,7 +315,7 @@ def test_the_shipped_debriefing_is_about_its_two_versions_and_the_code_is_smalle
     page = Information.of(ASSETS / "consent" / "study", language).debrief
     booth.app.screens.debrief.show(page)
     booth.app.screens.debrief.give_code("WWWWW-WWWWW")
-    shown_at(booth, qtbot, width, height)
+    shown_at(booth, qtbot, "debrief", width, height)
     written = texts(booth)
     for version in page.paragraphs[1:3]:
         assert written[version.split("\n")[0]].property("font").pixelSize() >= 36

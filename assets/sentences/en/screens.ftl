@@ -130,17 +130,17 @@ result-time-label = Time
 result-moves-label = Moves
 result-pairs-label = Pairs
 result-hints-label = Hints
-result-line = Well done! Here they are in the order you found them.
+result-line = Here they are in the order you found them.
 result-continue = Continue
 result-speech-few =
-    .a = Wow, what a memory! Only { $moves } moves.
-    .b = { $moves } moves! That was really quick.
+    .a = Wow, that was quick! Great game.
+    .b = So few moves! That was brilliant.
 result-speech-some =
-    .a = Well done! You needed { $moves } moves.
-    .b = Nicely played, { $moves } moves.
+    .a = Nicely played! That was a good game.
+    .b = What a lovely game. You played well!
 result-speech-many =
-    .a = You did it, all the pairs are found! Thank you for playing with me.
-    .b = There they are, all the pairs. That was fun!
+    .a = You kept on to the very last one. That was fun!
+    .b = That was fun! I liked playing with you.
 
 ## Questions
 
@@ -199,8 +199,8 @@ debrief-continue = Continue
 thanks-title = Thank you!
 thanks-continue = Finish
 thanks-speech =
-    .a = Thank you for playing with me. Goodbye!
-    .b = That was a pleasure. Thank you, and have a lovely day!
+    .a = It was fun to play with you. Goodbye!
+    .b = That was a pleasure. Have a lovely day!
 
 ## Everywhere
 

@@ -131,17 +131,17 @@ result-time-label = Tiempo
 result-moves-label = Jugadas
 result-pairs-label = Parejas
 result-hints-label = Pistas
-result-line = ¡Enhorabuena! Aquí están, en el orden en que las encontraste.
+result-line = Aquí están, en el orden en que las encontraste.
 result-continue = Continuar
 result-speech-few =
-    .a = ¡Vaya memoria! Solo { $moves } jugadas.
-    .b = ¡En { $moves } jugadas! Ha sido rapidísimo.
+    .a = ¡Vaya, qué rapidez! Una gran partida.
+    .b = ¡Qué pocas jugadas! Una partida brillante.
 result-speech-some =
-    .a = ¡Muy bien! Has necesitado { $moves } jugadas.
-    .b = Buena partida, { $moves } jugadas.
+    .a = ¡Muy bien jugado! Ha sido una buena partida.
+    .b = ¡Qué bonita partida! Has jugado bien.
 result-speech-many =
-    .a = ¡Lo has conseguido, todas las parejas! Gracias por jugar conmigo.
-    .b = Ahí están, todas las parejas. ¡Qué divertido!
+    .a = Has seguido hasta la última. ¡Qué divertido!
+    .b = ¡Qué divertido! Me ha gustado jugar contigo.
 
 ## Questions
 
@@ -200,8 +200,8 @@ debrief-continue = Continuar
 thanks-title = ¡Gracias!
 thanks-continue = Terminar
 thanks-speech =
-    .a = Gracias por jugar conmigo. ¡Hasta la vista!
-    .b = Ha sido un placer. ¡Gracias, y que tengas un buen día!
+    .a = Ha sido divertido jugar contigo. ¡Hasta la vista!
+    .b = Ha sido un placer. ¡Que tengas un buen día!
 
 ## Everywhere
 

@@ -135,17 +135,17 @@ result-time-label = Tempo
 result-moves-label = Mosse
 result-pairs-label = Coppie
 result-hints-label = Suggerimenti
-result-line = Complimenti! Eccole, nell'ordine in cui le hai trovate.
+result-line = Eccole, nell'ordine in cui le hai trovate.
 result-continue = Continua
 result-speech-few =
-    .a = Wow, che memoria! Solo { $moves } mosse.
-    .b = In { $moves } mosse! È stato davvero veloce.
+    .a = Wow, che velocità! Bellissima partita.
+    .b = Così poche mosse! Davvero una gran partita.
 result-speech-some =
-    .a = Complimenti! Ti sono servite { $moves } mosse.
-    .b = Bella partita, { $moves } mosse.
+    .a = Bella partita! Hai giocato bene.
+    .b = Che bella partita. Complimenti!
 result-speech-many =
-    .a = Ce l'hai fatta, hai trovato tutte le coppie! Grazie per aver giocato con me.
-    .b = Eccole qua, tutte le coppie. È stato divertente!
+    .a = Hai continuato fino all'ultima. È stato divertente!
+    .b = È stato divertente! Mi è piaciuto giocare con te.
 
 ## Questions
 
@@ -204,8 +204,8 @@ debrief-continue = Continua
 thanks-title = Grazie!
 thanks-continue = Fine
 thanks-speech =
-    .a = Grazie per aver giocato con me. Arrivederci!
-    .b = È stato un piacere. Grazie, e buona giornata!
+    .a = È stato divertente giocare con te. Arrivederci!
+    .b = È stato un piacere. Buona giornata!
 
 ## Everywhere
 

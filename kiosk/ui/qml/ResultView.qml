@@ -24,6 +24,9 @@ PageFrame {
     readonly property bool hinted: result.hints !== ""
     // Where there are few, the figures are larger.
     readonly property bool roomy: width > height && Theme.textSize <= 1.15
+    // What stands on the page is as far from its title and its way on as its parts are from each other.
+    readonly property real spaces: lined ? 2 : count > 0 ? 1 : 0
+    readonly property real air: Math.max(Theme.gap, Math.min(3 * Theme.gap, (room + 2 * Theme.gap - parts.solid) / (spaces + 2)))
     // Stands up when the screen comes, one pair after another.
     property real shown: visible ? 1 : 0
     Behavior on shown { enabled: view.visible; NumberAnimation { duration: 5 * Theme.motion; easing.type: Easing.OutQuad } }
@@ -88,9 +91,12 @@ PageFrame {
     onVisibleChanged: way.focus = true
 
     Column {
-        y: view.sink(height)
+        id: parts
+        // How high its parts are, without what is between them.
+        readonly property real solid: (view.lined ? line.implicitHeight : 0) + (shelf.visible ? shelf.height : 0) + board.height
+        y: view.air - Theme.gap
         width: parent?.width ?? 0
-        spacing: Theme.gap
+        spacing: view.air
 
         Balanced {
             id: line
@@ -131,20 +137,20 @@ PageFrame {
                         radius: width * 0.16
                         color: Theme.leaf
                     }
-                    // Two cards, one on the other: of the lower one only the edge is seen.
-                    readonly property real away: Math.round(0.028 * width)
+                    // Two cards, one on the other: of the lower one, which lies askew, only the corners are seen.
                     Rectangle {
-                        anchors { centerIn: parent; horizontalCenterOffset: -pair.away; verticalCenterOffset: -pair.away }
+                        anchors.centerIn: parent
                         width: 0.95 * picture.width
                         height: width
                         radius: 0.11 * picture.width
+                        rotation: -7
                         color: Theme.white
                         border { color: Theme.slot; width: 2 * Theme.unit }
                     }
                     Image {
                         id: picture
-                        anchors { centerIn: parent; horizontalCenterOffset: pair.away; verticalCenterOffset: pair.away }
-                        width: Math.floor(pair.width * 0.78)
+                        anchors.centerIn: parent
+                        width: Math.floor(pair.width * 0.76)
                         height: width
                         asynchronous: view.prepares
                         source: Qt.resolvedUrl(pair.modelData)

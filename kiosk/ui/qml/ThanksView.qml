@@ -1,4 +1,4 @@
-// The end: a word of thanks, and a hand of the pictures that the visitor found.
+// The end: a word of thanks, and pictures that the visitor found, in two rows.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -15,18 +15,25 @@ PageFrame {
 
     // Who found no pair sees some of the cards.
     readonly property list<url> pictures: result.pictures.length > 0 ? result.pictures : attract.pictures
-    readonly property int count: Math.min(5, pictures.length)
+    // Two full rows of them, or one where there are few: as many as fill the width with pictures as large as the height
+    // allows.
+    readonly property real largest: Math.max(1, Math.min(312 * Theme.unit, free / 2.3))
+    readonly property int most: Math.max(3, Math.ceil((column / largest - 1.06) / overlap) + 1)
+    readonly property int lines: pictures.length < 4 ? 1 : 2
+    readonly property int first: lines === 1 ? pictures.length : Math.min(most, Math.floor(pictures.length / 2))
+    readonly property int count: lines * first
     // None covers another: what makes an animal may be at its edge.
-    readonly property real overlap: 1.1
-    // In two rows where they are larger so.
-    readonly property int lines: count > 3 && (width < height || free / 2.7 > column / (overlap * (count - 1) + 1.25)) ? 2 : 1
-    readonly property real free: room - parting.height - parting.space
-    readonly property int first: Math.ceil(count / lines)
+    readonly property real overlap: 1.05
+    readonly property real free: room + Theme.gap - parting.height
     // With room for the cards' slant.
-    readonly property real slot: Math.max(0, Math.min(300 * Theme.unit, column / (overlap * (first - 1) + 1.25),
-        free / (lines > 1 ? (width > height ? 2.7 : 2.5) : 1.5)))
-    readonly property real spread: (lines > 1 ? 2.35 : 1.3) * slot
-    // The hand opens as the screen comes.
+    readonly property real slot: Math.max(0, Math.min(312 * Theme.unit, column / (overlap * (first - 1) + 1.06), free / (lines > 1 ? 2.3 : 1.2)))
+    // The first and the last card of full rows stand at the edges of the page, where little is missing.
+    readonly property real wish: first > 1 ? (column - 1.04 * slot) / (first - 1) : 0
+    readonly property real pitch: wish < 1.2 * overlap * slot ? wish : overlap * slot
+    // Rows are as far apart as columns, where there is the height.
+    readonly property real drop: Math.max(1.07 * slot, Math.min(pitch, free - 1.2 * slot))
+    readonly property real spread: (lines > 1 ? drop : 0) + 1.08 * slot
+    // The rows open as the screen comes.
     property real open: visible ? 1 : 0
     Behavior on open { enabled: view.visible; NumberAnimation { duration: 3 * Theme.motion; easing.type: Easing.OutBack } }
 
@@ -34,35 +41,34 @@ PageFrame {
     onWent: thanks.proceed()
     onVisibleChanged: way.focus = true
 
-    // Large and in the middle, above the hand.
+    // Larger than the title of another page, at the same place.
     PlainText {
         id: parting
         objectName: "page-title"
-        readonly property real space: 2.5 * Theme.gap
-        y: Math.max(0, (view.room - height - space - view.spread) / 2.4)
         width: parent?.width ?? 0
         text: view.words["thanks-title"]
-        horizontalAlignment: Text.AlignHCenter
+        horizontalAlignment: Text.AlignLeft
         font { pixelSize: Theme.size(90); bold: true }
         wrapMode: Text.Wrap
     }
     Item {
         anchors.horizontalCenter: parent?.horizontalCenter
-        y: parting.y + parting.height + parting.space
+        // In the middle between the letters of the title and the way on.
+        y: parting.height + (view.free - height) / 2
         visible: view.slot >= 60 * Theme.unit
-        width: (view.overlap * (view.first - 1) + 1) * view.slot
+        width: view.pitch * (view.first - 1) + view.slot
         height: view.spread
         Repeater {
             model: view.count
             CardFace {
                 required property int index
                 readonly property bool below: index >= view.first
-                readonly property real place: below ? index - view.first - (view.count - view.first - 1) / 2 : index - (view.first - 1) / 2
-                x: (parent?.width ?? 0) / 2 - width / 2 + place * view.overlap * view.slot * view.open
-                y: 0.05 * view.slot + 0.04 * view.slot * place * place * view.open + (below ? 1.16 * view.slot : 0)
+                readonly property real place: index % view.first - (view.first - 1) / 2
+                x: (parent?.width ?? 0) / 2 - width / 2 + place * view.pitch * view.open
+                y: 0.02 * view.slot + 0.01 * view.slot * place * place * view.open + (below ? view.drop : 0)
                 width: Math.floor(view.slot)
                 height: width
-                rotation: 5 * place * view.open
+                rotation: (below ? -2 : 2) * place * view.open
                 back: view.cardBack
                 shadow: view.cardShadow
                 picture: view.pictures[index] ?? ""

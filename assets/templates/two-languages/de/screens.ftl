@@ -130,17 +130,17 @@ result-time-label = Zeit
 result-moves-label = Züge
 result-pairs-label = Paare
 result-hints-label = Tipps
-result-line = Gut gemacht! Hier sind sie in der Reihenfolge, in der du sie gefunden hast.
+result-line = Hier sind sie in der Reihenfolge, in der du sie gefunden hast.
 result-continue = Weiter
 result-speech-few =
-    .a = Wow, was für ein Gedächtnis! Nur { $moves } Züge.
-    .b = { $moves } Züge! Das ging wirklich schnell.
+    .a = Wow, das ging schnell! Ein tolles Spiel.
+    .b = So wenige Züge! Das war großartig.
 result-speech-some =
-    .a = Gut gemacht! Du hast { $moves } Züge gebraucht.
-    .b = Schön gespielt, { $moves } Züge.
+    .a = Schön gespielt! Das war ein gutes Spiel.
+    .b = Was für ein schönes Spiel. Gut gemacht!
 result-speech-many =
-    .a = Geschafft, alle Paare sind gefunden! Danke, dass du mit mir gespielt hast.
-    .b = Da sind sie, alle Paare. Das hat Spaß gemacht!
+    .a = Du bist bis zum letzten drangeblieben. Das hat Spaß gemacht!
+    .b = Das hat Spaß gemacht! Ich habe gern mit dir gespielt.
 
 ## Questions
 
@@ -199,8 +199,8 @@ debrief-continue = Weiter
 thanks-title = Danke!
 thanks-continue = Fertig
 thanks-speech =
-    .a = Danke, dass du mit mir gespielt hast. Auf Wiedersehen!
-    .b = Das war mir eine Freude. Danke, und einen schönen Tag noch!
+    .a = Es hat Spaß gemacht, mit dir zu spielen. Auf Wiedersehen!
+    .b = Das war mir eine Freude. Einen schönen Tag noch!
 
 ## Everywhere
 
