@@ -25,7 +25,7 @@ from kiosk.config import ASSETS, Settings
 from kiosk.experiment.effects import BoardWait
 from kiosk.experiment.events import TextSize
 from kiosk.experiment.information import Information
-from kiosk.experiment.items import Likert, TextPage
+from kiosk.experiment.items import Likert, Rating, TextPage
 from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.experiment.session_config import SessionConfig, StudyConfig
 from kiosk.study.loader import read_study
@@ -717,6 +717,28 @@ def test_ten_points_alone_on_a_page_are_large_circles_from_edge_to_edge_below_a_
     asked = next(text for text in texts(ground) if text.property("text").replace("\xa0", " ") == ALONE[0].text["en"])
     assert asked.property("font").pixelSize() >= 50
     assert card.top() + 30 < shown.top() < shown.bottom() + 30 < scale.top() < scale.bottom() + 30 < card.bottom()
+
+
+@pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)
+@pytest.mark.parametrize("kind", ["likert", "differential", "pictures", "slider"])
+def test_a_rating_of_any_kind_alone_on_a_page_has_a_card_and_its_width(
+    kiosk: tuple[Window, StudyConfig], layout: Layout, kind: str
+) -> None:
+    ground = kiosk[0].shown.contentItem()
+    item = next(item for item in GALLERY.items if item.kind == kind)
+    assert list(shown_in(kiosk, layout, (f"one {kind}",))) == [f"one {kind}"]
+    box = find_item(ground, f"item-{item.id}")
+    assert box is not None
+    card = box.childItems()[0]
+    assert card.property("color").alpha() == 255
+    last = item.ends[1] if isinstance(item, Rating) else 0
+    names = [f"slider-{item.id}"] if kind == "slider" else [f"answer-{item.id}-1", f"answer-{item.id}-{last}"]
+    ends = [whole(part) for name in names if (part := find_item(ground, name)) is not None]
+    assert len(ends) == len(names)
+    assert round(ends[0].left() - whole(card).left()) == round(whole(card).right() - ends[-1].right()) > 20
+    line = find_item(ground, "page-line")
+    assert line is not None
+    assert round(whole(line).width()) == round(whole(card).width())
 
 
 @pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)

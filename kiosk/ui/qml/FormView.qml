@@ -30,12 +30,12 @@ PageFrame {
     }
     // Whether the helper stands behind a wide page, with its back to it, and how much height above the ways is its back's.
     property bool turned: false
-    readonly property real kept: turned && !shape.upright && shape.rates && Theme.textSize <= 1.15
+    readonly property real kept: turned && !shape.upright && wider && Theme.textSize <= 1.15
         ? Math.max(0, 200 * Theme.unit - (height - foot + Theme.gap)) : 0
     // Whether it is and stays so.
     readonly property bool still: keyboard.field === null && (shape.upright || !pane.long)
 
-    wider: shape.rates && (!shape.alone || shape.solo)
+    wider: shape.solo || shape.rates
     title: form.title
     // A long title of a questionnaire's own would reach the controls.
     cornered: shape.upright ? 0 : Math.max(0, 360 * Theme.unit - (width - column) / 2)

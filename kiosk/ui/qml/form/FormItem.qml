@@ -311,6 +311,7 @@ Item {
             answered: box.answer !== undefined
             given: box.answer ?? 0
             alone: box.page.alone
+            full: box.page.solo
             dense: box.page.dense || box.page.tight || (box.page.largeText && !box.page.large)
             large: box.page.large && !box.page.alone
             onChosen: value => box.form.rate(box.item.id, value)

@@ -17,8 +17,8 @@ QtObject {
 
     readonly property var items: form.items
     readonly property bool alone: items.length === 1
-    // Whether it is one rating: it has a card as wide as those of several.
-    readonly property bool solo: alone && scales(items[0])
+    // Whether it is one rating of any kind: it has a card as wide as those of several.
+    readonly property bool solo: alone && ["likert", "differential", "pictures", "slider"].includes(items[0].kind)
     readonly property bool dense: items.length > 4
     // Whether there is little height for what stands on the page.
     readonly property bool tight: room < 720 * Theme.unit
