@@ -364,6 +364,38 @@ def test_the_way_on_waits_until_what_is_asked_is_answered_or_typed(booth: Booth)
     assert not booth.item("continue").property("waits")
 
 
+def test_the_edge_of_the_question_that_comes_next_is_marked(booth: Booth) -> None:
+    form = booth.app.screens.form
+    number, free = required("integer"), ITEMS["likert"].model_copy(update={"required": False})
+    asked = (number, free, required("pictures"), required("differential"))
+
+    def marked() -> list[str]:
+        edges = [(item.id, find_item(booth.app.window.contentItem(), f"due-{item.id}")) for item in asked]
+        return [name for name, edge in edges if edge is not None and edge.opacity() == 1]
+
+    ask(booth, *asked)
+    assert marked() == [number.id]
+    # While the keys on the screen type into it, no other is: they point at this one.
+    booth.click(f"number-{number.id}")
+    form.draft(number.id, "7")
+    assert booth.sees("key-1")
+    assert marked() == [number.id]
+    booth.click("key-done")
+    form.show_answer(number.id, 7)
+    # What may be left out is not waited for.
+    assert marked() == [asked[2].id]
+    form.show_answer(asked[3].id, 2)
+    assert marked() == [asked[2].id]
+    # What is missing has an edge of another colour.
+    form.show_missing((asked[2].id,))
+    assert marked() == []
+    form.show_answer(asked[2].id, 1)
+    assert marked() == []
+    # One question alone needs no mark.
+    ask(booth, number)
+    assert marked() == []
+
+
 def test_what_is_missing_is_said_in_words_and_brought_into_view(booth: Booth) -> None:
     many = [required("likert").model_copy(update={"id": f"item{number}"}) for number in range(8)]
     ask(booth, *many)

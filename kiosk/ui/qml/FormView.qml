@@ -218,6 +218,8 @@ PageFrame {
                     // Over an upright page the keys cover other questions: these step back until they can be seen again.
                     opacity: keyboard.card === asked ? 1 : view.setBack
                     keyed: keyboard.field !== null && keyboard.card === asked
+                    // While keys on the screen type into one, that is the one which is answered.
+                    due: !shape.alone && (keyboard.field !== null ? keyed : view.form.due === modelData.id)
                     onEntered: field => {
                         keyboard.card = asked
                         keyboard.field = field

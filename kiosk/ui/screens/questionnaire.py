@@ -293,8 +293,13 @@ class FormScreen(QObject):
     @Property(str, notify=marked)
     def waiting(self) -> str:
         """Return how many answers the way on waits for; empty if none."""
-        number = self._to_go()
+        number = len(self._to_go())
         return self._catalogue.text("form-to-go", number=number) if number else ""
+
+    @Property(str, notify=marked)
+    def due(self) -> str:
+        """Return the first item that the way on waits for; empty if none."""
+        return next(iter(self._to_go()), "")
 
     @Property(list, notify=changed)
     def reasons(self) -> list[str]:
@@ -406,9 +411,9 @@ class FormScreen(QObject):
         for item in tuple(self._drafts):
             self.finish(item)
 
-    def _to_go(self) -> int:
+    def _to_go(self) -> list[str]:
         asked = [item for item in self._shown if not isinstance(item, TextPage) and item.required is not False]
-        return sum(item.id not in self._answers and not self._is_typed(item.id) for item in asked)
+        return [item.id for item in asked if item.id not in self._answers and not self._is_typed(item.id)]
 
     def _answer(self, item: str, value: Response | None) -> None:
         self._given[item] = value

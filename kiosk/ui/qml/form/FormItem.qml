@@ -23,6 +23,8 @@ Item {
     property real grown: 0
     // Whether the keys on the screen type into it.
     property bool keyed: false
+    // Whether it is the one to answer next. Its edge says so: what is chosen is filled, and the keyboard's ring is black.
+    property bool due: false
 
     // Whether its scale stands beside its text, and whether the words for the ends head it as in a table.
     readonly property bool beside: rows.beside(item)
@@ -111,7 +113,17 @@ Item {
         anchors { fill: parent; topMargin: box.head }
         radius: Theme.radius
         color: box.bare ? "transparent" : Theme.white
-        border { color: box.missed ? Theme.deepAmber : box.crowned ? Qt.tint(Theme.white, Qt.alpha(Theme.sea, 0.5)) : Theme.edge; width: box.bare ? 0 : (box.missed ? 5 : 3) * Theme.unit }
+        border { color: box.missed ? Theme.deepAmber : Theme.edge; width: box.bare ? 0 : (box.missed ? 5 : 3) * Theme.unit }
+        Rectangle {
+            objectName: `due-${box.item.id}`
+            anchors.fill: parent
+            radius: Theme.radius
+            color: "transparent"
+            // All edges are dark with high contrast.
+            border { color: Theme.sea; width: (Theme.highContrast ? 7 : 3) * Theme.unit }
+            opacity: box.due && !box.missed ? 1 : 0
+            Behavior on opacity { NumberAnimation { duration: Theme.motion } }
+        }
     }
 
     FontMetrics {
