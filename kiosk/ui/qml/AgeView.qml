@@ -31,6 +31,7 @@ PageFrame {
         width: answers.wish
         height: answers.tall
         horizontalPadding: (view.upright ? 24 : 32) * Theme.unit
+        verticalPadding: 26 * Theme.unit
         corner: view.pictured ? 2 * Theme.radius : Infinity
         font.pixelSize: Theme.size(84 * Math.min(1.45, view.scaled))
         Accessible.description: meaning
@@ -109,7 +110,7 @@ PageFrame {
             // With pictures they take what the page has left.
             readonly property real filling: view.upright ? Math.min(1000, (view.room - told.height - page.spacing) / Theme.unit - 34)
                 : Math.min(760, view.room / Theme.unit - 30)
-            readonly property real least: view.pictured ? filling : !abreast ? 260 : view.width < view.height ? (airy ? 560 : 440) : airy ? 400 : 320
+            readonly property real least: view.pictured ? filling : !abreast ? Math.max(260, Math.min(400, (filling - spacing / Theme.unit) / 2)) : view.width < view.height ? (airy ? 560 : 440) : airy ? 400 : 320
             readonly property real tall: Math.max(yes.implicitHeight, no.implicitHeight, least * Theme.unit)
             width: parent.width
             columns: abreast ? 2 : 1
