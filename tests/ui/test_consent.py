@@ -16,7 +16,7 @@ from kiosk.experiment.information import ConsentPage, Purpose
 from kiosk.ui.simulated_visitor import UiDriver, lay_out
 from tests.samples import CATALOGUES, ENGLISH
 from tests.ui.conftest import Booth
-from tests.ui.looking import appearance, painted, place, texts
+from tests.ui.looking import appearance, lies_in, painted, place, texts
 
 PAGE = ConsentPage(
     title="Before you begin",
@@ -120,11 +120,10 @@ def test_a_double_click_is_one_tick(booth: Booth, done: Done) -> None:
     assert done == [("store", True)]
 
 
-def test_the_way_to_agree_stands_back_until_the_required_boxes_are_ticked_and_can_be_tapped(
+def test_the_way_to_agree_says_what_is_to_go_until_the_required_boxes_are_ticked_and_can_be_tapped(
     booth: Booth, done: Done
 ) -> None:
-    assert (booth.item("agree").property("quiet"), booth.item("agree").property("waits")) == (True, True)
-    assert not booth.item("decline").property("waits")
+    assert booth.item("agree").property("quiet")
     assert booth.item("consent-waits").property("text") == "To take part, tick the 2 boxes that are needed"
     height = booth.item("consent-waits").height()
     assert booth.item("agree").property("note") == "2 boxes to go"
@@ -137,9 +136,24 @@ def test_the_way_to_agree_stands_back_until_the_required_boxes_are_ticked_and_ca
     assert booth.item("agree").property("note") == ""
     assert not booth.item("agree").property("quiet")
     assert (booth.item("consent-waits").property("text"), booth.item("consent-waits").height()) == (
-        "That is all that is needed.",
+        "That is all that is needed. Now choose below.",
         height,
     )
+
+
+@pytest.mark.usefixtures("done")
+def test_once_all_that_is_needed_is_ticked_the_helper_says_to_choose_and_what_it_said_before(booth: Booth) -> None:
+    booth.app.screens.consent.show(SHORT.model_copy(update={"points": ("No name.", "You can play."), "signs": ()}))
+    booth.settle()
+    ground = booth.app.window.contentItem()
+    assert says(ground, "You can play.")
+    booth.app.screens.consent.show_ticks(REQUIRED)
+    lay_out(booth.app.window)
+    assert says(ground, "Now choose below.\nYou can play.")
+    assert booth.item("consent-waits").property("text") == "That is all that is needed."
+    booth.app.screens.consent.show_ticks(frozenset())
+    lay_out(booth.app.window)
+    assert says(ground, "You can play.")
 
 
 def test_what_is_missing_is_said_in_words_until_it_is_ticked(booth: Booth, done: Done) -> None:
@@ -155,7 +169,7 @@ def test_what_is_missing_is_said_in_words_until_it_is_ticked(booth: Booth, done:
 
 @pytest.mark.parametrize("shown", [{}, {"textSize": 1.3}, {"textSize": 1.5}, {"highContrast": True}], ids=str)
 @pytest.mark.parametrize("size", [(960, 540), (540, 960)], ids=["wide", "upright"])
-def test_once_both_can_be_chosen_to_decline_looks_like_to_agree(
+def test_to_decline_looks_like_to_agree_before_and_after_the_boxes_are_ticked(
     booth: Booth, qtbot: QtBot, done: Done, size: tuple[int, int], shown: dict[str, object]
 ) -> None:
     window = booth.app.window
@@ -169,10 +183,8 @@ def test_once_both_can_be_chosen_to_decline_looks_like_to_agree(
         return [appearance(booth.item(name), window.grabWindow()) for name in ("decline", "agree", "back")]
 
     decline, agree, back = looks()
-    assert decline[:2] == agree[:2]
-    # One waits, and the other can be chosen, as the way back can.
-    assert booth.item("agree").property("waits")
-    assert decline[2:] == back[2:] != agree[2:]
+    assert decline == agree
+    assert decline[2:] == back[2:]
     booth.app.screens.consent.show_ticks(REQUIRED)
     decline, agree, back = looks()
     assert decline == agree
@@ -184,7 +196,7 @@ def test_once_both_can_be_chosen_to_decline_looks_like_to_agree(
 @pytest.mark.usefixtures("done")
 @pytest.mark.parametrize("scale", [1.0, 1.3, 1.5])
 @pytest.mark.parametrize("language", ["en", "es", "it", "de", "ar"])
-def test_on_an_upright_screen_both_answers_have_the_same_edges(
+def test_on_an_upright_screen_both_answers_share_the_width_and_back_stands_where_it_always_does(
     booth: Booth, qtbot: QtBot, language: str, scale: float
 ) -> None:
     kiosk, window = booth.app.screens.kiosk, booth.app.window
@@ -192,25 +204,29 @@ def test_on_an_upright_screen_both_answers_have_the_same_edges(
     kiosk.begin((language,), language, Settings().consent)
     kiosk.offer_back(offered=True)
     window.setProperty("textSize", scale)
-    window.resize(540, 960)
-    qtbot.waitUntil(lambda: window.contentItem().width() == 540)
-    decline, agree, back = (place(booth.item(name)) for name in ("decline", "agree", "back"))
-    assert (decline.left(), decline.right()) == (agree.left(), agree.right())
-    assert decline.bottom() < agree.top()
-    assert not back.intersects(agree)
-    # They end where the page does, and the way back begins where it begins.
-    edges = (540 - agree.right(), back.left()) if language != "ar" else (agree.left(), 540 - back.right())
-    assert edges[0] == pytest.approx(edges[1], abs=2)
-    # Beside the lower one, but for large words.
-    beside = back.center().y() == pytest.approx(agree.center().y(), abs=1)
-    assert beside or back.top() > agree.bottom()
-    assert beside or scale > 1
-    # Without a way back they have all of the width.
-    kiosk.offer_back(offered=False)
+    window.resize(1080, 1920)
+    qtbot.waitUntil(lambda: window.contentItem().width() == 1080)
     lay_out(window)
-    decline, agree = (place(booth.item(name)) for name in ("decline", "agree"))
+    decline, agree, back = (place(booth.item(name)) for name in ("decline", "agree", "back"))
     assert decline.size() == agree.size()
-    assert agree.left() == pytest.approx(540 - agree.right(), abs=2)
+    assert back.top() > max(decline.bottom(), agree.bottom())
+    first, last = (agree, decline) if language == "ar" else (decline, agree)
+    if scale == 1:
+        assert decline.top() == agree.top()
+        assert last.left() - first.right() == pytest.approx(32, abs=2)
+    else:
+        # Large words may need the whole width for each.
+        assert decline.top() == agree.top() or decline.bottom() < agree.top()
+    # Together they have the edges of the page.
+    both = decline.united(agree)
+    assert both.left() == pytest.approx(48, abs=2)
+    assert both.right() == pytest.approx(1080 - 48, abs=2)
+    booth.app.screens.age.ask(18)
+    kiosk.show("age")
+    booth.settle()
+    lay_out(window)
+    if scale == 1:
+        assert place(booth.item("back")).center().y() == pytest.approx(back.center().y(), abs=1)
 
 
 @pytest.mark.usefixtures("done")
@@ -229,10 +245,9 @@ def test_what_is_to_go_and_the_words_of_the_button_are_one_group_in_its_middle(
     middle = place(agree).center()
     assert abs(group.center().x() - middle.x()) <= 2
     assert abs(group.center().y() - middle.y()) <= 4
-    if width < height:
-        assert (note.right() < words.left()) if language == "ar" else (words.right() < note.left())
-    else:
-        assert words.center().y() < note.center().y()
+    assert words.center().y() < note.center().y()
+    # About 32 pixels of a screen of 1080 lines.
+    assert note.height() >= 32 * 1.36 / 2
 
 
 @pytest.mark.usefixtures("done")
@@ -256,6 +271,9 @@ def test_on_an_upright_screen_points_and_boxes_are_all_seen_at_once(
     booth.settle()
     assert booth.sees("purpose-share")
     assert not booth.sees("more")
+    if scale == 1:
+        read = [text for text in texts(window.contentItem()) if lies_in(text, "SignedLine", "TickBox")]
+        assert min(text.property("font").pixelSize() for text in read) >= 36
 
 
 def test_a_keyboard_alone_decides(booth: Booth, done: Done) -> None:

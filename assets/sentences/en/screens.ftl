@@ -50,6 +50,8 @@ consent-to-go =
     }
 # In its place, once all of them have one.
 consent-ready = That is all that is needed.
+# After that, or in the helper's bubble. It must favour neither answer.
+consent-choose = Now choose below.
 consent-agree = I take part
 consent-decline = Play without taking part
 consent-more = Read all of it

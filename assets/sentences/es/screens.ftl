@@ -50,7 +50,9 @@ consent-to-go =
        *[other] Faltan { $number } casillas
     }
 # In its place, once all of them have one.
-consent-ready = Eso es todo lo que hace falta.
+consent-ready = No hace falta nada más.
+# After that, or in the helper's bubble. It must favour neither answer.
+consent-choose = Ahora elige abajo.
 consent-agree = Participo
 consent-decline = Jugar sin participar
 consent-more = Leer todo

@@ -51,6 +51,8 @@ consent-to-go =
     }
 # In its place, once all of them have one.
 consent-ready = È tutto ciò che serve.
+# After that, or in the helper's bubble. It must favour neither answer.
+consent-choose = Ora scegli qui sotto.
 consent-agree = Partecipo
 consent-decline = Gioco senza partecipare
 consent-more = Leggi tutto

@@ -13,13 +13,19 @@ PageFrame {
     property bool whole: false
     readonly property bool short: consent.points.length > 0 && !whole
 
-    aside: short ? sayable(consent.points) : ""
-    readonly property var read: aside === "" ? consent.points : consent.points.slice(0, -1)
+    // What of the points the helper says; once nothing is missing, below what there is to do now.
+    readonly property string said: short ? sayable(consent.points) : ""
+    aside: said !== "" && consent.complete ? `${words["consent-choose"]}\n${said}` : said
+    readonly property var read: said === "" ? consent.points : consent.points.slice(0, -1)
 
-    // Whether an upright page has too much to say for its largest letters and air between its groups, and whether for the
-    // next smaller letters as well.
-    readonly property bool snug: short && width < height && tall(38, 36, 1) + 1.6 * Theme.gap > pane.room
-    readonly property bool tight: snug && tall(34, 33, 0.7) > pane.room
+    // An upright page has the largest letters with which points and boxes are all seen at once: in points, in boxes, and how
+    // many gaps apart its groups are. Whether it has the largest of all, and whether even the smallest are too large.
+    readonly property bool upright: width < height
+    readonly property var sizes: [[38, 36, 1], [36, 36, 0.7], [36, 36, 0.5], [34, 33, 0.7], [34, 33, 0.5]]
+    readonly property int fitting: short && upright ? sizes.findIndex(([point, box, apart], at) => tall(point, box, apart) + (at === 0 ? 1.6 * Theme.gap : 0) <= pane.room) : 0
+    readonly property bool snug: fitting !== 0
+    readonly property bool tight: fitting < 0
+    readonly property var used: sizes[tight ? sizes.length - 1 : fitting]
     FontMetrics {
         id: measure
         font.pixelSize: 100
@@ -40,7 +46,6 @@ PageFrame {
     quiet: !consent.complete
     other: words["consent-decline"]
     way.name: "agree"
-    way.waits: !consent.complete
     way.even: true
     way.reason: consent.waiting
     way.note: consent.toGo
@@ -69,7 +74,7 @@ PageFrame {
         // Right after the title on a wide screen, away from the steps of the visit; at the end of the line where it would
         // nearly reach that.
         readonly property real after: view.titleWidth + 40 * Theme.unit
-        readonly property bool follows: view.width > view.height && view.titleInOneLine && after + width + 2 * Theme.gap <= view.column
+        readonly property bool follows: !view.upright && view.titleInOneLine && after + width + 2 * Theme.gap <= view.column
         x: Theme.across(follows ? after : view.column - width, width, view.column)
         // Level with the title's letters, and above the content where it is higher than they are.
         y: Math.min(-height - Theme.gap, view.titleMiddle - height / 2)
@@ -96,21 +101,21 @@ PageFrame {
             id: pane
             width: parent.width
             // The boxes keep some distance from the answers below, but where large texts need the room.
-            room: view.room - Math.max(0, view.way.over - 0.5 * Theme.gap) - (Theme.textSize > 1.15 ? 0 : view.width < view.height ? 1.4 * Theme.gap : 0.5 * Theme.gap)
+            room: view.room - Math.max(0, view.way.over - 0.5 * Theme.gap) - (Theme.textSize > 1.15 ? 0 : view.upright ? 1.4 * Theme.gap : 0.5 * Theme.gap)
             more: view.words["scroll-more"]
             // What there is to tick stands apart from what is read, as far as the page has room.
-            spacing: Math.max(0.5 * Theme.gap, Math.min((view.width < view.height ? 3.4 : 2.2) * Theme.gap, room - (view.short ? points.height : sheet.height) - boxes.height))
+            spacing: Math.max(0.5 * Theme.gap, Math.min((view.upright ? 3.4 : 2.2) * Theme.gap, room - (view.short ? points.height : sheet.height) - boxes.height))
 
             Grid {
                 id: points
                 visible: view.short
                 width: pane.width
                 // Larger on an upright screen, but where large texts need the room themselves.
-                readonly property bool airy: Theme.textSize <= 1.15 && (view.width < view.height && !view.tight
+                readonly property bool airy: Theme.textSize <= 1.15 && (view.upright && !view.tight
                     || (view.accompanied && 95 * view.read.length + 140 * view.consent.purposes.length + 85 <= pane.room / Theme.unit))
-                spacing: (airy ? view.snug ? 0.6 : view.width < view.height ? 0.9 : 1.2 : 0.6) * Theme.gap
+                spacing: (!airy ? 0.6 : !view.upright ? 1.2 : 0.9 * view.used[2]) * Theme.gap
                 // Two stand beside each other, which leaves height to what there is to tick.
-                columns: airy && view.width > view.height && view.read.length === 2 ? 2 : 1
+                columns: airy && !view.upright && view.read.length === 2 ? 2 : 1
                 columnSpacing: 2 * Theme.gap
                 Repeater {
                     model: view.short ? view.read : []
@@ -119,7 +124,7 @@ PageFrame {
                         width: (points.width - (points.columns - 1) * points.columnSpacing) / points.columns
                         text: modelData.text
                         sign: modelData.sign
-                        size: points.airy ? Theme.size(view.width < view.height && !view.snug ? 38 : 34) : Theme.body
+                        size: points.airy ? Theme.size(view.upright ? view.used[0] : 34) : Theme.body
                     }
                 }
             }
@@ -180,9 +185,9 @@ PageFrame {
                         free -= waits.height + spacing
                     for (let i = 0; i < purposes.count; i++)
                         free -= ((purposes.itemAt(i) as Purpose)?.bare ?? 0) + spacing
-                    return Math.max(0, Math.min((view.width < view.height ? 1.3 : points.columns > 1 ? 1 : 0.5) * Theme.gap, free))
+                    return Math.max(0, Math.min((view.upright ? 1.3 : points.columns > 1 ? 1 : 0.5) * Theme.gap, free))
                 }
-                spacing: (points.airy && view.short ? (view.snug ? 0.7 : view.width < view.height ? 1 : points.columns > 1 ? 0.9 : 0.67) : 0.5) * Theme.gap
+                spacing: (points.airy && view.short ? (view.upright ? view.used[2] : points.columns > 1 ? 0.9 : 0.67) : 0.5) * Theme.gap
                 // What is still to be ticked, or that nothing is.
                 PlainText {
                     id: waits
@@ -194,9 +199,9 @@ PageFrame {
                     visible: boxes.needs
                     width: boxes.width
                     height: Math.ceil(letters.height)
-                    text: view.consent.waiting || view.words["consent-ready"]
+                    text: view.consent.waiting || view.words["consent-ready"] + (view.said === "" ? ` ${view.words["consent-choose"]}` : "")
                     onTextChanged: if (view.visible && view.consent.complete) Accessible.announce(waits.text, Accessible.Polite)
-                    font { pixelSize: points.airy && view.short ? Theme.size(view.width < view.height ? 38 : 36) : Theme.reading; bold: true }
+                    font { pixelSize: points.airy && view.short ? Theme.size(view.upright ? 38 : 36) : Theme.reading; bold: true }
                     fontSizeMode: Text.HorizontalFit
                     minimumPixelSize: Theme.size(24)
                     verticalAlignment: Text.AlignVCenter
@@ -230,10 +235,11 @@ PageFrame {
                         TickBox {
                             id: tick
                             objectName: "purpose-" + purpose.modelData.id
-                            y: group.visible ? group.y + group.height + (view.width < view.height ? 0.7 : 1) * boxes.spacing : purpose.apart ? boxes.further : 0
+                            y: group.visible ? group.y + group.height + (view.upright ? 0.7 : 1) * boxes.spacing : purpose.apart ? boxes.further : 0
                             width: parent.width
                             large: points.airy && view.short
-                            broad: large && view.width < view.height && !view.snug
+                            broad: large && view.upright && !view.snug
+                            font.pixelSize: !large ? Theme.reading : Theme.size(view.upright ? view.used[1] : 33)
                             roomy: view.short && Theme.textSize <= 1.15
                             words: purpose.modelData.text
                             needed: purpose.modelData.required

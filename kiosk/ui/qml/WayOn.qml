@@ -25,9 +25,9 @@ FocusScope {
     property bool even: false
     property string name: "continue"
     property string otherName: ""
-    // Two that are alike beside each other on a wide page are as large as leaves each in one line.
-    readonly property real letters: !even || fills || !refuses ? Theme.onWays : [Theme.onWays, Theme.onBack].find(
-        size => Math.max(widths.bold(label, size), widths.bold(other, size)) + 2 * padding <= spread) ?? Theme.body
+    // Two that are alike beside each other are as large as leaves each in one line on a wide page, and in two on an upright one.
+    readonly property real letters: !even || !refuses ? Theme.onWays : [Theme.onWays, Theme.onBack].find(size => fills ? inHalves(size)
+        : Math.max(widths.bold(label, size), widths.bold(other, size)) + 2 * padding <= spread) ?? (fills ? Theme.onWays : Theme.body)
     // What is beside the words of two that are alike.
     readonly property real padding: 28 * Theme.unit
     // How high a way on is with its words in one line.
@@ -46,7 +46,10 @@ FocusScope {
 
     readonly property real wish: (goes ? go.wish : 0) + (refuses ? no.wish + Theme.gap : 0)
         + (returns ? back.wish + Theme.gap : 0)
-    // Two equal ones share an upright page, one above the other: the lower one stands where the way on of other pages does.
+    // Two equal ones share the width of an upright page. The way back then stands below them, where other pages have it.
+    readonly property bool halved: even && fills && goes && refuses && inHalves(letters)
+    readonly property real half: Math.floor((width - 32 * Theme.unit) / 2)
+    // Where their words are too long for that, one stands above the other.
     readonly property bool beside: !(even && fills && refuses) && wish <= width
     // How wide both are beside each other: as their words need.
     readonly property bool level: even && beside && goes && refuses
@@ -66,11 +69,19 @@ FocusScope {
 
     // Where there are too many for one row: whether the way back stands beside the way on, and leaves the other one as much
     // width if both are alike.
-    readonly property bool paired: refuses && back.wish + Theme.gap + Math.max(go.wish, even && fills ? no.wish : 0) <= width
+    readonly property bool paired: refuses && !halved && back.wish + Theme.gap + Math.max(go.wish, even && fills ? no.wish : 0) <= width
     readonly property real rest: paired && returns ? width - back.width - Theme.gap : width
-    readonly property real second: refuses && !beside ? no.height + step : 0
+    readonly property real second: refuses && !beside && !halved ? no.height + step : 0
+    // How far the way back stands above the lower edge beside a way on of one line.
+    readonly property real lower: halved ? (tall - back.height) / 2 : 0
 
-    height: beside ? tallest : (goes ? go.height : 0) + second + (returns && !paired ? back.height + step : 0)
+    height: beside ? tallest : (goes ? go.height : 0) + second + (returns && !paired ? back.height + step + lower : 0)
+
+    // Whether two equal ones have room beside each other on an upright page, in two lines at most.
+    function inHalves(size: real): bool {
+        const room = half - 2 * padding
+        return [label, other].every(text => widths.lines(text, size, room) <= 2 && text.split(" ").every(word => widths.bold(word, size) <= room))
+    }
 
     // The next visitor begins at the way on, whichever button the last one used.
     onVisibleChanged: go.focus = true
@@ -78,16 +89,25 @@ FocusScope {
     WordWidths {
         id: widths
     }
+    // What is beside the words of one of them there: two lines are about as long as each other.
+    function besideHalf(text: string): real {
+        const words = text.split(" "), room = half - 2 * padding
+        if (widths.bold(text, letters) <= room)
+            return padding
+        const longer = words.map((_, at) => Math.max(widths.bold(words.slice(0, at).join(" "), letters), widths.bold(words.slice(at).join(" "), letters)))
+        return Math.max(padding, (half - 1.02 * Math.min(...longer)) / 2 - 2)
+    }
+
     BigButton {
         id: go
         letters: ways.letters
         least: 320 * Theme.unit
         tall: ways.tall
-        horizontalPadding: ways.even ? ways.padding : 56 * Theme.unit
+        horizontalPadding: ways.halved ? ways.besideHalf(words) : ways.even ? ways.padding : 56 * Theme.unit
         objectName: ways.name
         visible: ways.goes
         most: ways.width
-        width: ways.level ? ways.share : ways.stacked ? ways.pile
+        width: ways.level ? ways.share : ways.halved ? ways.half : ways.stacked ? ways.pile
              : !ways.fills || ways.beside && ways.refuses ? Math.min(wish, most)
              : ways.beside && ways.returns ? ways.width - back.width - Theme.gap : ways.rest
         x: Theme.across(ways.width - width, width, ways.width)
@@ -95,12 +115,12 @@ FocusScope {
         y: ways.level ? (ways.tallest - height) / 2 : ways.second
         // Whole pixels: two that are alike are as high as each other.
         height: Math.round(ways.even && ways.refuses ? Math.max(implicitHeight + ways.stout, no.implicitHeight) : implicitHeight)
-        corner: ways.level ? no.topPadding + no.font.pixelSize : Infinity
+        corner: ways.level || ways.halved ? no.topPadding + no.font.pixelSize : Infinity
         quiet: ways.quiet
         waits: ways.waits
         note: ways.note
         noteBelow: ways.even
-        noteAside: ways.fills
+        noteAside: ways.fills && !ways.halved
         Accessible.description: ways.reason
         words: ways.label
         focus: true
@@ -113,16 +133,16 @@ FocusScope {
         objectName: ways.otherName
         visible: ways.refuses
         most: ways.width
-        width: ways.level ? ways.share : ways.stacked ? ways.pile
+        width: ways.level ? ways.share : ways.halved ? ways.half : ways.stacked ? ways.pile
              : !ways.fills || !ways.returns && !ways.even ? Math.min(wish, most)
              : ways.beside ? ways.width - go.width - back.width - 2 * Theme.gap : ways.even ? ways.rest : ways.width
-        x: Theme.across(ways.width - width - (ways.beside ? go.width + Theme.gap : 0), width, ways.width)
+        x: Theme.across(ways.halved ? 0 : ways.width - width - (ways.beside ? go.width + Theme.gap : 0), width, ways.width)
         y: ways.level ? go.y : 0
         height: ways.even ? go.height : implicitHeight
         quiet: !ways.even || ways.quiet
-        horizontalPadding: ways.even ? ways.padding : 44 * Theme.unit
+        horizontalPadding: ways.halved ? ways.besideHalf(words) : ways.even ? ways.padding : 44 * Theme.unit
         // Two lines need less air above and below them.
-        verticalPadding: ways.level && wish > ways.spread ? 10 * Theme.unit : (tall - Math.ceil(line)) / 2
+        verticalPadding: ways.level && wish > ways.spread ? 10 * Theme.unit : ways.halved && ways.besideHalf(words) > ways.padding ? 20 * Theme.unit : (tall - Math.ceil(line)) / 2
         words: ways.other
         onClicked: ways.turnedDown()
     }
@@ -134,7 +154,7 @@ FocusScope {
         visible: ways.returns
         most: ways.width
         x: Theme.across(0, width, ways.width)
-        y: ways.beside ? (ways.tallest - height) / 2 : ways.paired ? go.y + (go.height - height) / 2 : ways.height - height
+        y: ways.beside ? (ways.tallest - height) / 2 : ways.paired ? go.y + (go.height - height) / 2 : ways.height - height - ways.lower
         quiet: true
         words: ways.words["control-back"]
         horizontalPadding: 40 * Theme.unit

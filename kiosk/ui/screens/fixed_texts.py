@@ -17,6 +17,7 @@ FIXED = (
     "consent-agreed",
     "consent-missing",
     "consent-ready",
+    "consent-choose",
     "consent-agree",
     "consent-decline",
     "consent-more",

@@ -50,6 +50,8 @@ consent-to-go =
     }
 # In its place, once all of them have one.
 consent-ready = Mehr ist nicht nötig.
+# After that, or in the helper's bubble. It must favour neither answer.
+consent-choose = Wähle jetzt unten.
 consent-agree = Ich nehme teil
 consent-decline = Spielen ohne Teilnahme
 consent-more = Alles lesen
