@@ -8,8 +8,9 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from PySide6.QtCore import QObject, QPoint, QPointF, Qt
+from PySide6.QtCore import QObject, QPoint, QPointF, QRect, QRectF, Qt
 from PySide6.QtGui import QFont, QImage
+from PySide6.QtQml import QQmlProperty
 from PySide6.QtQuick import QQuickItem
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
@@ -86,6 +87,11 @@ def find(app: App, name: str) -> QQuickItem:
     item = find_item(app.window.contentItem(), name)
     assert item is not None, name
     return item
+
+
+def parts(app: App, base: str, *kinds: str) -> list[QQuickItem]:
+    """Return the visible items of one of Qt's types in components of ours."""
+    return [item for item in items(app.window.contentItem()) if item.inherits(base) and lies_in(item, *kinds)]
 
 
 def press(app: App, name: str) -> QPoint:
@@ -361,6 +367,10 @@ def test_cards_that_are_no_pair_are_framed_until_they_turn_back(still: App) -> N
     def rimmed() -> list[int]:
         return [n for n in range(24) if find_item(find(still, f"card-{n}"), "rim") is not None]
 
+    def thickness(item: QQuickItem | None) -> float:
+        assert item is not None
+        return float(QQmlProperty.read(item, "border.width"))
+
     board = still.screens.board
     for position, card in zip(CAT, ("cat", "owl"), strict=True):
         board.reveal(position, card)
@@ -368,6 +378,9 @@ def test_cards_that_are_no_pair_are_framed_until_they_turn_back(still: App) -> N
     board.lock(BoardWait.TURNING_BACK)
     assert framed() == [board.location(position) for position in CAT]
     assert rimmed() == framed()
+    for n in framed():
+        rim = thickness(find_item(find(still, f"card-{n}"), "rim"))
+        assert thickness(find(still, f"missed-{n}")) > 2.5 * rim
     board.hide(CAT)
     board.lock(None)
     assert framed() == rimmed() == []
@@ -416,14 +429,14 @@ def letters(text: QQuickItem) -> QFont:
 
 @BOTH
 def test_what_to_do_is_said_last_stands_first_and_is_told_once(still: App) -> None:
-    def parts() -> list[tuple[str, bool]]:
+    def told() -> list[tuple[str, bool]]:
         return [(str(text.property("text")), letters(text).bold()) for text in in_bubble(still)]
 
     avatar = still.screens.avatar
     still.screens.board.deal(3, 4, 6, "animals")
     still.screens.kiosk.show("game")
     avatar.say("You have seen it. Try row 2.", "Try row 2.")
-    assert parts() == [("Try row\u00a02.", True), ("You have seen it.", False)]
+    assert told() == [("Try row\u00a02.", True), ("You have seen it.", False)]
     place, reason = in_bubble(still)
     assert letters(place).pixelSize() > 1.25 * letters(reason).pixelSize()
     assert place.mapToScene(QPointF(0, place.height())).y() <= reason.mapToScene(QPointF(0, 0)).y()
@@ -431,13 +444,13 @@ def test_what_to_do_is_said_last_stands_first_and_is_told_once(still: App) -> No
     assert [text for _, text in map(described, inside) if "Try" in text] == ["You have seen it. Try row 2."]
     alone = letters(place).pixelSize()
     avatar.say("Try row 2.", "Try row 2.")
-    assert parts() == [("Try row\u00a02.", True)]
+    assert told() == [("Try row\u00a02.", True)]
     # With a reason or without, in every condition.
     assert letters(in_bubble(still)[0]).pixelSize() == alone
     avatar.say("你见过它。看第二行。", "看第二行。")
-    assert parts() == [("看第二行。", True), ("你见过它。", False)]
+    assert told() == [("看第二行。", True), ("你见过它。", False)]
     avatar.say("You have seen it.")
-    assert parts() == [("You have seen it.", False)]
+    assert told() == [("You have seen it.", False)]
 
 
 @BOTH
@@ -623,11 +636,16 @@ def test_on_an_upright_screen_the_tray_is_as_wide_as_the_cards_with_their_rows_n
 
 
 @UPRIGHT
-def test_on_an_upright_screen_two_rows_of_pairs_side_by_side_make_no_card_smaller(still: App) -> None:
+def test_on_an_upright_screen_the_tray_has_one_row_and_the_cards_are_as_wide_as_there_is_room(still: App) -> None:
     tray = next(item for item in items(still.window.contentItem()) if lies_in(item, "Tray"))
     board = next(item for item in items(still.window.contentItem()) if lies_in(item, "BoardView"))
-    assert (tray.property("lines"), tray.property("paired")) == (2, True)
+    assert (tray.property("lines"), tray.property("paired")) == (1, False)
     assert board.property("cell") == int(board.property("widest"))
+    # The board stands about in the middle between the tray and what is said.
+    number = painted(min((i for i in items(board) if i.property("text") == "1"), key=lambda i: place(i).top()))
+    said = min(place(i).top() for i in parts(still, "QQuickRectangle", "Bubble"))
+    above, below = number.top() - place(tray).bottom(), said - place(find(still, "card-23")).bottom()
+    assert 0.6 * below < above < 1.4 * below
 
 
 @pytest.mark.parametrize("calm", ["upright", "wide"], indirect=True)
@@ -663,18 +681,112 @@ def test_in_a_pause_the_helper_is_seen_with_its_eyes_shut_and_says_nothing(still
     assert not face.property("blinking")
 
 
-def test_the_last_pair_stays_forward_until_other_cards_are_dealt(still: App) -> None:
-    board = still.screens.board
-    board.deal(2, 2, 2, "animals")
-    lay_out(still.window)
-    for row, card in enumerate(("cat", "owl")):
+def find_all(app: App, pairs: int = 2) -> None:
+    """Deal so many pairs, a row for each, and find them one after another."""
+    board = app.screens.board
+    board.deal(pairs, 2, pairs, "animals")
+    lay_out(app.window)
+    for row, card in enumerate(("cat", "owl", "fox")[:pairs]):
         places = (Position(row, 0), Position(row, 1))
         for position in places:
             board.reveal(position, card)
         board.mark_matched(places)
+
+
+@BOTH
+def test_the_last_pair_stays_forward_until_other_cards_are_dealt(still: App) -> None:
+    find_all(still)
     assert [find(still, f"card-{i}").property("proud") for i in range(4)] == [0, 0, 1, 1]
-    board.deal(2, 2, 2, "animals")
+    still.screens.board.deal(2, 2, 2, "animals")
     assert {find(still, f"card-{i}").property("proud") for i in range(4)} == {0}
+
+
+def card_width(card: QQuickItem) -> float:
+    """Return how wide a card's face is seen."""
+    (face,) = (i for i in card.childItems() if i.property("rimShown") is not None)
+    return face.width() * face.scale()
+
+
+@BOTH
+def test_at_the_end_the_last_pair_is_larger_and_the_frames_of_the_others_get_thin(still: App) -> None:
+    def cards() -> list[QQuickItem]:
+        return [find(still, f"card-{i}") for i in range(6)]
+
+    board = still.screens.board
+    find_all(still, pairs=3)
+    widths = [card_width(card) for card in cards()]
+    assert min(widths[4:]) > 1.07 * max(widths[:4])
+    assert min(card.z() for card in cards()[4:]) > max(card.z() for card in cards()[:4])
+    unit = min(still.window.width(), still.window.height()) / 1080
+    for card, width in zip(cards()[:4], widths[:4], strict=True):
+        frame = find(still, f"found-{card.property('index')}")
+        assert 3 * unit < (frame.width() - 0.962 * width) / 2 < 7 * unit
+    # Nothing is looked for any more: rows and columns have no numbers.
+    assert parts(still, "QQuickText", "BoardTable") == []
+    board.deal(3, 2, 3, "animals")
+    assert len(parts(still, "QQuickText", "BoardTable")) == 3 + 2
+
+
+@BOTH
+def test_that_all_are_found_is_said_larger_than_that_a_pair_is(still: App) -> None:
+    def cheer() -> int:
+        (text,) = in_bubble(still)
+        assert text.property("lineCount") == 1
+        return letters(text).pixelSize()
+
+    board = still.screens.board
+    board.deal(3, 4, 6, "animals", practice=True)
+    still.screens.kiosk.show("practice")
+    for position in GONE:
+        board.reveal(position, "cat")
+    board.mark_matched(GONE)
+    pair = cheer()
+    still.screens.kiosk.show("game")
+    find_all(still)
+    assert cheer() > 1.2 * pair
+
+
+def frames(app: App) -> list[QRect]:
+    """Return what a hint's mark encloses."""
+    return sorted(map(place, parts(app, "QQuickRectangle", "Mark")), key=lambda frame: (frame.top(), frame.left()))
+
+
+@BOTH
+def test_a_mark_makes_no_card_smaller_and_is_seen_around_it(still: App) -> None:
+    card = find(still, "card-8")
+    before = card_width(card)
+    for row, column in ((1, 2), (1, None), (None, 2)):
+        still.screens.board.highlight(row, column)
+        assert card_width(card) == before
+        (frame,) = frames(still)
+        middle = place(card).center()
+        side = 0.962 * before / 2
+        around = side + 8 * min(still.window.width(), still.window.height()) / 1080
+        assert frame.contains(QRectF(middle.x() - around, middle.y() - around, 2 * around, 2 * around).toRect())
+
+
+@BOTH
+@pytest.mark.parametrize(
+    ("opened", "mark", "enclosed"),
+    [
+        (Position(0, 3), (None, 3), [[9, 15, 21]]),
+        (Position(2, 3), (None, 3), [[3, 9], [21]]),
+        (Position(2, 3), (2, None), [[12, 13, 14], [16, 17]]),
+        (Position(2, 5), (2, None), [[12, 13, 14, 15, 16]]),
+        (Position(2, 3), (1, None), [[6, 7, 8, 9, 10, 11]]),
+        (Position(2, 3), (1, 3), [[9]]),
+        (None, (None, 3), [[3, 9, 15, 21]]),
+    ],
+)
+def test_a_mark_leaves_out_the_card_that_waits_for_its_second(
+    still: App, opened: Position | None, mark: tuple[int | None, int | None], enclosed: list[list[int]]
+) -> None:
+    board = still.screens.board
+    if opened is not None:
+        board.reveal(opened, "cat")
+    board.highlight(*mark)
+    centres = [place(find(still, f"card-{i}")).center() for i in range(24)]
+    assert [[i for i, at in enumerate(centres) if frame.contains(at)] for frame in frames(still)] == enclosed
 
 
 def test_the_time_left_to_say_that_one_is_there_is_shown_where_it_is_known(still: App) -> None:

@@ -28,9 +28,6 @@ Item {
     readonly property bool marked: (boardState.markRow === row || boardState.markRow < 0)
                                    && (boardState.markColumn === column || boardState.markColumn < 0)
                                    && boardState.markRow + boardState.markColumn > -2
-    // A hint means this very card. The mark takes a little of a card's room where cards are close together, and
-    // more of this one's.
-    readonly property bool meant: boardState.markRow === row && boardState.markColumn === column
     // A tap would change nothing: two cards are open, a sentence is said, or this one is up.
     readonly property bool refuses: !boardState.open || up
     readonly property bool missed: up && !found && boardState.missed
@@ -42,13 +39,21 @@ Item {
     readonly property real cheer: boardState.wave === 0 || boardState.wave === 1 ? 0
         : Math.max(0, 1 - Math.abs(boardState.wave * (boardLayout.rows + boardLayout.columns + 1) - row - column - 1) / 1.6)
     Behavior on rest { NumberAnimation { duration: Theme.motion } }
-    // The last pair stays a little forward, in a rim of light.
+    // The last pair stays forward, larger than its neighbours, in a frame of light. The others step back from it: their
+    // frames get thin, and their pictures large.
     readonly property bool closes: boardState.last.includes(index)
     property real proud: closes && (settles || !coming.running) ? 1 : 0
     // A pair that was just found keeps its size in its frame until the next move.
     property real fresh: boardState.latest.includes(index) && (settles || !coming.running) ? 1 : 0
     Behavior on fresh { NumberAnimation { duration: Theme.motion } }
-    readonly property real large: Math.max(proud, fresh)
+    readonly property real apart: boardState.ended * (1 - proud)
+    // How large a found card is, and the frame behind it.
+    readonly property real beside: boardLayout.within(boardLayout.cell - 28 * Theme.unit, 1)
+    readonly property real rested: mix(mix(mix(0.86, boardLayout.within(boardLayout.framed - 2 * boardLayout.ring, 1.01), fresh), beside, apart), 1.08, proud)
+    readonly property real frame: mix(mix(0.9 * boardLayout.cell, boardLayout.framed, fresh), beside * boardLayout.card + 10 * Theme.unit, apart)
+    function mix(from: real, to: real, share: real): real {
+        return from + (to - from) * share
+    }
     Behavior on proud { NumberAnimation { duration: Theme.motion } }
 
     readonly property real turning: face.turn
@@ -58,7 +63,8 @@ Item {
     objectName: "card-" + index
     width: boardLayout.cell
     height: boardLayout.cell
-    z: coming.running || large > 0 ? 2 : up ? 1 : 0
+    // The view would set 0 to 1 itself. A hint's mark lies at 1.5.
+    z: proud > 0 ? 4 : coming.running || fresh > 0 ? 3 : up || marked ? 2 : 1
     Accessible.role: Accessible.Button
     Accessible.name: label
     Accessible.onPressAction: board.tap(index)
@@ -86,11 +92,11 @@ Item {
     }
     onMissedChanged: if (missed && Theme.motion > 0) sigh.restart()
 
-    // A rim of light around the last pair.
+    // A frame of light around the last pair.
     Rectangle {
         visible: place.proud > 0
         anchors.centerIn: parent
-        width: (place.boardLayout.framed + 5 * Theme.unit) * (1 + 0.09 * place.cheer)
+        width: (1.08 * place.boardLayout.card + 24 * Theme.unit) * (1 + 0.09 * place.cheer)
         height: width
         opacity: place.proud
         radius: width * 0.12
@@ -101,9 +107,9 @@ Item {
         visible: place.rest > 0
         anchors.centerIn: parent
         // By its size: corners that are drawn larger by a scale look ragged.
-        width: (0.9 * parent.width * (1 - place.large) + (place.boardLayout.framed - 0.9 * place.boardLayout.ring * place.proud) * place.large) * (1 + 0.09 * place.cheer)
+        width: place.frame * (1 + 0.09 * place.cheer)
         height: width
-        opacity: place.rest
+        opacity: place.rest * (1 - place.proud)
         radius: width * 0.12
         color: Theme.leaf
     }
@@ -135,9 +141,8 @@ Item {
         opacity: place.boardState.speaking && !place.up && !place.marked ? Theme.held : 1
         Behavior on opacity { NumberAnimation { duration: Theme.motion } }
         scale: (tap.pressed ? 0.95 : 1)
-            * (place.marked ? place.boardLayout.within(place.boardLayout.cell - (place.meant ? 28 : 18) * Theme.unit, 1) : 1)
             * (1 + 0.07 * lift)
-            * (1 - 0.14 * place.rest + (place.boardLayout.within(place.boardLayout.framed - 2 * place.boardLayout.ring, 1.01) - 0.86) * place.large)
+            * place.mix(1, place.rested, place.rest)
             * (1 + 0.16 * place.forward)
             * (1 + 0.09 * place.cheer)
     }
@@ -146,13 +151,13 @@ Item {
         objectName: "missed-" + place.index
         visible: place.missed && place.turning === 1
         anchors { centerIn: face; horizontalCenterOffset: face.shift }
-        width: 0.962 * face.width * face.scale
+        width: 0.962 * face.width * face.scale + 6 * Theme.unit
         height: width
         rotation: face.rotation
         radius: width * 0.12
         color: "transparent"
-        // Thicker than the rim of any open card, and not the colour of a hint.
-        border { color: Theme.faintInk; width: 8 * Theme.unit }
+        // Much thicker than the rim of any open card, and not the colour of a hint.
+        border { color: Theme.faintInk; width: 12 * Theme.unit }
     }
     SequentialAnimation {
         id: coming

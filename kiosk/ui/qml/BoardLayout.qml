@@ -32,6 +32,8 @@ QtObject {
     // How much of a cell a card takes. The cards' pictures have a narrow margin.
     readonly property real share: upright ? 0.98 : 0.91
     readonly property real margin: (1 - 0.962 * share) / 2
+    // How wide a card is that is seen in its full size.
+    readonly property real card: 0.962 * share * cell
     // Beside the numbers there is room for a mark's arrow.
     readonly property real numbers: (upright ? 66 : 78) * Theme.unit
     // On an upright screen, the room of the rows' numbers and their arrow beside the cards.
@@ -57,25 +59,14 @@ QtObject {
     readonly property bool tall: height - (182 + 70) * Math.max(1, Theme.textSize) * Theme.unit - rows * widest > 70 * Theme.unit
     // On an upright screen it is a shelf.
     readonly property int shelfLines: pairs > 12 ? 2 : 1
-    readonly property real shelfSlot: Math.floor(Math.min((pairs > 6 ? 80 : 74) * Theme.unit, wide / Math.max(1, Math.ceil(pairs / shelfLines))))
+    readonly property real shelfSlot: Math.floor(Math.min((pairs > 6 ? 86 : 74) * Theme.unit, wide / Math.max(1, Math.ceil(pairs / shelfLines))))
     readonly property real shelf: wordsLine + shelfLines * shelfSlot + 8 * Theme.unit
     // It stands further from the columns' numbers than the cards do, as they name the cards; but no card gets smaller
     // by it.
     readonly property real apart: upright ? 30 * Theme.unit : 0
-    // What is left with the fewest rows, below an announcement of one line.
-    readonly property real remains: height - lent - 20 * Theme.unit - shelf - numbers - 90 * Math.max(1, Theme.textSize) * Theme.unit - rows * widest
-    // Below two rows the cards stand lower, so that they are as far from the tray as from a short sentence. A long one
-    // covers no card.
-    readonly property real lowered: Math.min(24 * Theme.unit, 0.45 * lent)
-    // Two rows leave room for the two cards of a pair beside each other, as one row does in the practice. No card gets
-    // smaller by them.
-    readonly property real doubleSlot: Math.floor(Math.min(82 * Theme.unit, 0.475 * wide / Math.max(1, Math.ceil(pairs / 2))))
-    readonly property real doubled: 2 * doubleSlot - shelfSlot
-    readonly property bool doubles: upright && pairs > 7 && shelfLines === 1 && remains + lowered > doubled + 1.5 * apart
-    readonly property int lines: upright ? (doubles ? 2 : shelfLines) : tall ? 2 : 1
-    readonly property real strip: broad ? 0 : upright ? shelf + (doubles ? doubled : 0)
-        : (tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
-    readonly property real trayHeight: upright ? lines * (doubles ? doubleSlot : shelfSlot) : strip - 8 * Theme.unit
+    readonly property int lines: upright ? shelfLines : tall ? 2 : 1
+    readonly property real strip: broad ? 0 : upright ? shelf : (tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
+    readonly property real trayHeight: upright ? lines * shelfSlot : strip - 8 * Theme.unit
     // The height of the words in one line, above the tray or beside it.
     readonly property real wordsHigh: upright ? wordsLine - 12 * Theme.unit - wordsApart : trayHeight
 
@@ -83,10 +74,9 @@ QtObject {
     readonly property real footer: pillHeight + (upright ? 16 : 22) * Theme.unit + (practises && skipsBelow ? skipHeight + Theme.gap : 0)
     readonly property real spare: Math.floor(height - lent - 20 * Theme.unit - strip - numbers - footer - rows * widest) - 1
     // On an upright screen, what more there is lies below the tray: words and tray begin where those of the practice do.
-    readonly property real lower: upright ? Math.max(0, Math.min(24 * Theme.unit, (spare - apart) / 5)) : 0
+    readonly property real lower: upright ? Math.max(0, Math.min(26 * Theme.unit, (spare - apart) / 5)) : 0
     readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
         + Math.max(upright && Theme.textSize > 1.15 ? 18 * Theme.unit : 0, Math.min(apart + 5 * lower, spare))
-        + (doubles ? lowered : 0)
     // How high the page has to be on an upright screen, for cells as wide as there is room for.
     readonly property real wish: 52 * Theme.unit + shelf + apart + numbers + pillHeight + rows * widest
 
@@ -102,6 +92,8 @@ QtObject {
     // A pair that was just found has a frame of this thickness; frames of neighbours leave a clear strip between them.
     readonly property real ring: Math.min(12 * Theme.unit, 0.05 * cell)
     readonly property real framed: cell - 14 * Theme.unit
+    // How far a hint's mark reaches out of its cells, so that it is seen around cards of their full size.
+    readonly property real over: Math.max(0, 12 * Theme.unit - margin * cell)
 
     // The table, as large as all cells.
     readonly property real tableWidth: cell * columns
@@ -124,6 +116,6 @@ QtObject {
     }
     // How much a card is scaled to have this width, and at most this.
     function within(wide: real, most: real): real {
-        return Math.min(most, wide / Math.max(1, 0.962 * share * cell))
+        return Math.min(most, wide / Math.max(1, card))
     }
 }

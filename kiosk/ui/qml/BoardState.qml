@@ -1,6 +1,7 @@
 // What all cards of a board have in common: what the board tells of them, and what has just happened to them.
 import QtQuick
 import Recollect
+import "."
 
 QtObject {
     id: state
@@ -14,6 +15,8 @@ QtObject {
     readonly property int markRow: board.markRow
     readonly property int markColumn: board.markColumn
     readonly property bool marks: markRow >= 0 || markColumn >= 0
+    // The card that waits for its second; -1 for none.
+    readonly property int waits: board.waits
 
     // How many cards turn just now.
     property int turning: 0
@@ -23,6 +26,10 @@ QtObject {
     property list<int> last: []
     // How far the joy about that has run over the cards, from the first to the last.
     property real wave: 0
+    // Whether the last pair is in the tray, and how far the others have stepped back from it.
+    property bool over: false
+    property real ended: over ? 1 : 0
+    Behavior on ended { NumberAnimation { duration: Theme.motion } }
     // A card was touched or has turned.
     signal touched(location: int)
 
@@ -32,5 +39,6 @@ QtObject {
         last = []
         latest = []
         wave = 0
+        over = false
     }
 }

@@ -1,4 +1,4 @@
-// The table below the cards: its rows and columns are numbered, and one of them is marked for a hint.
+// The numbers of the rows and columns.
 pragma ComponentBehavior: Bound
 import QtQuick
 import "."
@@ -24,14 +24,6 @@ Item {
         Accessible.ignored: true
     }
 
-    Mark {
-        anchors.fill: parent
-        row: table.markRow
-        column: table.markColumn
-        cell: table.boardLayout.cell
-        arrow: (table.upright ? 18 : 28) * Theme.unit
-        apart: (table.upright ? 4 : 5) * Theme.unit
-    }
     Repeater {
         model: table.boardLayout.columns
         Number {

@@ -149,6 +149,8 @@ FocusScope {
         boardLayout: layout
         markRow: now.markRow
         markColumn: now.markColumn
+        // At the end the pictures alone are looked at.
+        opacity: 1 - now.ended
     }
     GridView {
         id: cards
@@ -181,6 +183,20 @@ FocusScope {
             view.board.tap(currentIndex)
         }
 
+        // Above the other cards, and below those that it marks.
+        Mark {
+            parent: cards.contentItem
+            z: 1.5
+            width: layout.tableWidth
+            height: layout.tableHeight
+            row: now.markRow
+            column: now.markColumn
+            cell: layout.cell
+            over: layout.over
+            arrow: (layout.upright ? 16 : 28) * Theme.unit
+            apart: (layout.upright ? 2 : 5) * Theme.unit
+            without: now.waits
+        }
         delegate: BoardCard {
             board: view.board
             boardLayout: layout
@@ -198,6 +214,7 @@ FocusScope {
         onLanded: {
             if (view.board.tray.length !== layout.pairs)
                 return
+            now.over = true
             if (!layout.practises)
                 sweep.restart()
             view.won()

@@ -12,6 +12,7 @@ Item {
     property bool calls: false          // whether it is to be read from far away
     property bool grows: false          // whether it has room for large words
     property bool cheers: false         // whether the sentence is a cheer: large, bold and in the middle
+    property bool triumphs: false       // whether that is about the last pair: as large as its line is wide
     property string outcome: ""         // what stands above one sentence, as large as a cheer
     property string outcomeOf: ""       // which sentence that is
     property string advice: ""          // the end of the sentence that says what to do: read first, above the rest
@@ -21,6 +22,7 @@ Item {
     readonly property real tail: (hasSpeaker ? 34 : 12) * Theme.unit
     readonly property bool tells: outcome !== "" && whole === outcomeOf
     readonly property real cheer: Theme.size(grows ? 64 : 52)
+    readonly property real triumph: Math.max(cheer, Math.floor(Theme.size(80) * Math.min(1, words.width / Math.max(1, highest.advanceWidth))))
     // What to do is looked for while a card is sought: it is larger than the rest, and in a wide bubble as large as a
     // few words, where it fits into one line.
     readonly property real basis: Theme.size(grows ? 36 : 34)
@@ -39,11 +41,17 @@ Item {
 
     // The last sentence stays in the bubble while it fades, and no longer. A cheer stays one.
     property bool cheered: false
-    onCheersChanged: if (sentence !== "") cheered = cheers
+    property bool triumphed: false
+    onCheersChanged: if (sentence !== "") rejoice()
+    onTriumphsChanged: if (sentence !== "") rejoice()
+    function rejoice() {
+        cheered = cheers
+        triumphed = triumphs
+    }
     onSentenceChanged: {
         if (sentence === "")
             return
-        cheered = cheers
+        rejoice()
         show()
     }
     onAdviceChanged: if (sentence !== "") show()
@@ -85,7 +93,7 @@ Item {
     Measure {
         id: usual
         text: words.text
-        font.pixelSize: bubble.cheered ? bubble.cheer : bubble.short ? briefly.font.pixelSize : bubble.end !== "" ? bubble.basis
+        font.pixelSize: bubble.triumphed ? bubble.triumph : bubble.cheered ? bubble.cheer : bubble.short ? briefly.font.pixelSize : bubble.end !== "" ? bubble.basis
             : Theme.size(bubble.calls ? 50 : bubble.grows ? (large.high <= bubble.room ? 38 : 34) : 36)
         font.bold: bubble.cheered
     }
@@ -102,6 +110,11 @@ Item {
         id: heading
         text: bubble.end
         font { pixelSize: Theme.size(52); bold: true }
+    }
+    TextMetrics {
+        id: highest
+        text: bubble.whole
+        font { pixelSize: Theme.size(80); bold: true }
     }
     TextMetrics {
         id: briefly

@@ -333,6 +333,7 @@ Window {
         aside: prompt.text
         asideAdvice: prompt.advice
         cheers: prompt.cheers
+        triumphs: prompt.triumphs
         quiet: boardPage.view?.moves ?? false
         marks: boardPage.view?.marks ?? false
         marked: boardPage.view !== null ? helper.mapFromItem(boardPage, boardPage.view.marked.x, boardPage.view.marked.y) : Qt.point(0, 0)

@@ -34,4 +34,5 @@ QtObject {
     // Whether it tells how the move goes on, and whether it cheers.
     readonly property bool tells: (second || missed) && text !== "" && !says
     readonly property bool cheers: (glad || done) && text !== "" && !second && !missed
+    readonly property bool triumphs: cheers && done
 }

@@ -27,6 +27,8 @@ Item {
     property string asideAdvice: ""
     // Whether that is a cheer.
     property bool cheers: false
+    // Whether it is about the last pair.
+    property bool triumphs: false
     // What came of a move, to be read above one of these sentences.
     property string outcome: ""
     property string outcomeOf: ""
@@ -125,6 +127,7 @@ Item {
         outcome: panel.outcome
         outcomeOf: panel.outcomeOf
         cheers: panel.cheers && sentence === panel.aside
+        triumphs: cheers && panel.triumphs
     }
     Avatar {
         id: face

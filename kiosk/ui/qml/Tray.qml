@@ -106,7 +106,8 @@ Item {
                     height: width
                     radius: 0.11 * tray.card
                     color: Theme.paper
-                    border { color: Theme.slot; width: Math.max(1, 2 * Theme.unit) }
+                    // Fainter than what lies there: places that wait are not looked at.
+                    border { color: Theme.edge; width: Math.max(1, 2 * Theme.unit) }
                 }
             }
             // Two cards side by side; or one on the other, of which only the edge is seen.
