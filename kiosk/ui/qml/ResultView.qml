@@ -110,14 +110,15 @@ PageFrame {
         }
         Item {
             id: shelf
-            // The first and the last of a row stand at the edges of the figures below them, where little is missing.
+            // What is around a tile within its place. The first and the last of a row stand at the edges of the figures below
+            // them, where little is missing.
             readonly property real inset: 0.04 * view.slot
             readonly property real wish: ((parent?.width ?? 0) + 2 * inset - view.slot) / Math.max(1, view.columns - 1)
             readonly property real pitch: wish > view.slot && wish < 1.08 * view.slot ? wish : view.slot
             x: view.rows > 2 && pitch !== wish ? (parent.width - width) / 2 : Theme.across(-inset, width, parent.width)
             visible: view.slot > 70 * Theme.unit
             width: pitch * (view.columns - 1) + view.slot
-            height: view.slot * view.rows
+            height: view.slot * view.rows - 2 * inset
             Repeater {
                 model: view.result.pictures
                 Item {
@@ -127,7 +128,7 @@ PageFrame {
                     // Each has its share of the time, from left to right.
                     readonly property real come: Math.max(0, Math.min(1, view.shown * (view.count + 3) / 3 - index / 3))
                     x: Theme.across(index % view.columns * shelf.pitch, width, shelf.width)
-                    y: Math.floor(index / view.columns) * view.slot
+                    y: Math.floor(index / view.columns) * view.slot - shelf.inset
                     width: view.slot
                     height: view.slot
                     visible: come > 0
