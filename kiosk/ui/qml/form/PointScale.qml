@@ -160,7 +160,7 @@ Item {
                         visible: !scale.pictured
                         readonly property real reach: Math.min(scale.size, scale.tall)
                         text: point.number
-                        font { pixelSize: Math.min(Theme.heading, Math.max((scale.inset > 0 || scale.long ? 0.48 : 0.42) * reach, Math.min(Theme.body, 0.5 * reach))); bold: true }
+                        font { pixelSize: Math.min(Theme.heading, Math.max((scale.inset > 0 || scale.long || scale.full && scale.many ? 0.48 : 0.42) * reach, Math.min(Theme.body, 0.5 * reach))); bold: true }
                         color: point.on ? Theme.white : Theme.ink
                     }
                     Image {
