@@ -142,6 +142,7 @@ PageFrame {
                 width: parent.width
                 visible: text !== ""
                 text: scene.text.slice(telling.end + 1)
+                least: 0.7
                 font.pixelSize: Theme.size(view.letters[1])
                 horizontalAlignment: view.abreast ? Text.AlignHCenter : Text.AlignLeft
             }

@@ -90,7 +90,8 @@ Item {
         }
         Balanced {
             width: parent.width
-            text: line.lead === "" ? line.text : line.text.slice(line.lead.length + 1)
+            // A number stays with what it counts.
+            text: (line.lead === "" ? line.text : line.text.slice(line.lead.length + 1)).replace(/(\d) /g, "$1\u00a0")
             horizontalAlignment: Text.AlignLeft
             font { pixelSize: line.size; bold: line.strong }
             lineHeight: line.leading
