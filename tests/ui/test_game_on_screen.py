@@ -622,6 +622,29 @@ def test_on_an_upright_screen_the_columns_numbers_stand_nearer_to_the_cards_than
     assert number.top() - tray > place(find(still, "card-0")).top() - number.bottom() > 0
 
 
+@pytest.mark.parametrize("right", [False, True], ids=["board at the left", "board at the right"])
+def test_on_a_wide_screen_cards_and_bubble_are_as_far_from_the_edges_and_further_from_each_other(
+    still: App,
+    right: bool,  # noqa: FBT001 - a parameter
+) -> None:
+    still.window.setProperty("boardOnRight", right)
+    try:
+        lay_out(still.window)
+        said = place(parts(still, "QQuickRectangle", "Bubble")[0])
+        numbers = parts(still, "QQuickText", "BoardTable")
+        left = min(painted(number).left() for number in numbers)
+        last = place(find(still, "card-5"))
+        end = last.center().x() + card_width(find(still, "card-5")) * 0.962 / 2
+    finally:
+        still.window.setProperty("boardOnRight", False)  # noqa: FBT003 - Qt's own
+    unit = still.window.height() / 1080
+    width = still.window.width()
+    outside, between = ((width - end), left - said.right()) if right else (left, said.left() - end)
+    other = said.left() if right else width - said.right()
+    assert abs(outside - other) < 8 * unit
+    assert between > 1.5 * outside
+
+
 @UPRIGHT
 def test_on_an_upright_screen_the_tray_is_as_wide_as_the_cards_with_their_rows_numbers(still: App) -> None:
     tray = place(next(item for item in items(still.window.contentItem()) if lies_in(item, "Tray")))

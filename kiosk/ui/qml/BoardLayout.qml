@@ -13,6 +13,8 @@ QtObject {
     required property bool upright
     // How much of its lower end a long sentence may cover.
     required property real lent
+    // On which side of the cards the helper speaks: -1 left, 1 right, 0 below them or nowhere.
+    required property int spoken
     // Whether the height passes several values, while the helper comes or goes. The cards are laid out for the last.
     required property bool resizes
     required property int rows
@@ -98,7 +100,9 @@ QtObject {
     // The table, as large as all cells.
     readonly property real tableWidth: cell * columns
     readonly property real tableHeight: cell * rows
-    readonly property real tableX: Math.round((width - tableWidth + (upright ? gutter : numbers)) / 2)
+    // A little away from what is said beside them: the outermost numbers or cards are as far from the window's edge as the
+    // bubble is.
+    readonly property real tableX: Math.round((width - tableWidth + (upright ? gutter : numbers)) / 2 - 14 * Theme.unit * spoken)
     readonly property real tableY: Math.round(header + numbers)
     // Where the cards themselves begin and end.
     readonly property real cardsBegin: tableX + margin * cell

@@ -22,6 +22,7 @@ FocusScope {
     // See BoardLayout.
     property alias upright: layout.upright
     property alias lent: layout.lent
+    property alias spoken: layout.spoken
     property alias resizes: layout.resizes
 
     // Where everything is, and what has just happened to the cards.
@@ -61,6 +62,7 @@ FocusScope {
         height: view.height
         upright: false
         lent: 0
+        spoken: 0
         resizes: false
         rows: view.board.rows
         columns: view.board.columns

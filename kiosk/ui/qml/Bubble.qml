@@ -12,7 +12,7 @@ Item {
     property bool calls: false          // whether it is to be read from far away
     property bool grows: false          // whether it has room for large words
     property bool cheers: false         // whether the sentence is a cheer: large, bold and in the middle
-    property bool triumphs: false       // whether that is about the last pair: as large as its line is wide
+    property bool triumphs: false       // whether that is about the last pair: as large as fits
     property string outcome: ""         // what stands above one sentence, as large as a cheer
     property string outcomeOf: ""       // which sentence that is
     property string advice: ""          // the end of the sentence that says what to do: read first, above the rest
@@ -22,7 +22,12 @@ Item {
     readonly property real tail: (hasSpeaker ? 34 : 12) * Theme.unit
     readonly property bool tells: outcome !== "" && whole === outcomeOf
     readonly property real cheer: Theme.size(grows ? 64 : 52)
-    readonly property real triumph: Math.max(cheer, Math.floor(Theme.size(80) * Math.min(1, words.width / Math.max(1, highest.advanceWidth))))
+    // In one line, or where that would be no larger than another cheer, in as many as it has words.
+    readonly property real triumph: {
+        const most = wide => Math.floor(highest.font.pixelSize * Math.min(1, 0.98 * words.width / Math.max(1, wide)))
+        const line = most(highest.advanceWidth(whole))
+        return line >= cheer ? line : Math.max(line, most(Math.max(...whole.split(" ").map(word => highest.advanceWidth(word)))))
+    }
     // What to do is looked for while a card is sought: it is larger than the rest, and in a wide bubble as large as a
     // few words, where it fits into one line.
     readonly property real basis: Theme.size(grows ? 36 : 34)
@@ -111,9 +116,8 @@ Item {
         text: bubble.end
         font { pixelSize: Theme.size(52); bold: true }
     }
-    TextMetrics {
+    FontMetrics {
         id: highest
-        text: bubble.whole
         font { pixelSize: Theme.size(80); bold: true }
     }
     TextMetrics {

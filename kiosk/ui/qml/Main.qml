@@ -225,6 +225,7 @@ Window {
                 prepares: root.prepares
                 said: helper.says
                 lent: Math.max(0, layout.helperReach - Theme.gap)
+                spoken: !layout.accompanied ? 0 : root.boardOnRight ? -1 : 1
                 faceAt: layout.wide || !root.avatar.present ? 0 : helper.y + helper.faceTop - stage.y
                 told: prompt.tells
                 onWon: if (!root.board.practice) feast.begin()
