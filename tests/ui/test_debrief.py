@@ -16,6 +16,8 @@ from kiosk.config import ASSETS
 from kiosk.experiment.information import Information, Page
 from kiosk.game import Position
 from kiosk.ui.screens.debrief import QUIET_MODULES
+from kiosk.ui.simulated_visitor import lay_out
+from tests.samples import CATALOGUES, ENGLISH
 from tests.ui.conftest import Booth
 from tests.ui.looking import items, lies_in
 
@@ -245,6 +247,7 @@ def shown_at(booth: Booth, qtbot: QtBot, screen: str, width: int, height: int) -
     window.resize(width, height)
     qtbot.waitUntil(lambda: window.contentItem().width() == width)
     booth.settle()
+    lay_out(window)
 
 
 def texts(booth: Booth) -> dict[str, QQuickItem]:
@@ -305,6 +308,26 @@ def test_one_to_six_points_and_the_card_to_take_home_are_seen_without_scrolling(
     assert not booth.sees("more")
     code, way = booth.item("qr"), booth.item("continue")
     assert code.mapToScene(QPointF(0, code.height())).y() < way.mapToScene(QPointF(0, 0)).y()
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 800), (1366, 768), (1920, 1080), (1080, 1920)])
+def test_no_shipped_debriefing_scrolls_in_letters_of_usual_size(
+    booth: Booth, qtbot: QtBot, width: int, height: int
+) -> None:
+    sheets = [*(ASSETS / "consent" / "study").glob("*.toml"), *(ASSETS / "templates").glob("*/information/*.toml")]
+    assert len(sheets) > 10
+    booth.app.screens.debrief.give_contact("memory-study@psychology.university.test")
+    booth.app.screens.debrief.give_code("WWWWWWW")
+    scrolling = []
+    for sheet in sheets:
+        booth.app.screens.set_language(CATALOGUES.get(sheet.stem, ENGLISH))
+        information = Information.of(sheet.parent, sheet.stem)
+        booth.app.screens.debrief.give_summary(information.about.paragraphs[0])
+        booth.app.screens.debrief.show(information.debrief)
+        shown_at(booth, qtbot, "debrief", width, height)
+        if booth.sees("more"):
+            scrolling.append(sheet.relative_to(ASSETS))
+    assert scrolling == []
 
 
 @pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])

@@ -63,7 +63,8 @@ QtObject {
             return runsOn(row[0].text, plain) ? 1 : page.pointLines(row[0].text, plain, page.column)
         }
         const width = (page.column - Theme.gap) / 2 - 2 * insetAcross - (above ? 0 : badge * size + Theme.gap)
-        return Math.max(...row.map(point => page.pointLines(point.text, size, width)))
+        // Small letters are set on whole pixels, which makes them wider.
+        return Math.max(...row.map(point => page.pointLines(point.text, size, (Theme.unit < 0.9 ? 0.95 : 0.98) * width)))
     }
     // How high all rows are with letters of this size.
     function stacked(size: real): real {
