@@ -697,6 +697,20 @@ def test_the_words_for_the_ends_stand_once_above_the_points_of_a_wide_page_of_ra
     assert window.shown.width() == 1920
 
 
+def test_that_an_item_does_not_apply_is_a_column_after_the_points_of_a_wide_page(
+    kiosk: tuple[Window, StudyConfig],
+) -> None:
+    ground, asked = kiosk[0].shown.contentItem(), ASKED["psi"].items
+    for first, page in zip(range(0, len(asked), 4), rating_pages(kiosk, Layout(1920, 1080), asked), strict=True):
+        assert find_item(ground, "more") is None
+        for item, (_, card, shown, points) in zip(asked[first : first + 4], page, strict=True):
+            button = find_item(ground, f"not-applicable-{item.id}")
+            assert button is not None
+            assert shown.right() < points.left()
+            assert points.right() + 20 <= whole(button).left() < whole(button).right() < card.right() - 20
+            assert abs(whole(button).center().y() - points.center().y()) <= 1
+
+
 @pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)
 def test_ten_points_alone_on_a_page_are_large_circles_from_edge_to_edge_below_a_large_question(
     kiosk: tuple[Window, StudyConfig], layout: Layout

@@ -35,7 +35,7 @@ PageFrame {
     // Whether it is and stays so.
     readonly property bool still: keyboard.field === null && (shape.upright || !pane.long)
 
-    wider: shape.solo || shape.rates
+    wider: shape.solo || shape.scaled
     title: form.title
     // A long title of a questionnaire's own would reach the controls.
     cornered: shape.upright ? 0 : Math.max(0, 360 * Theme.unit - (width - column) / 2)
@@ -75,6 +75,7 @@ PageFrame {
         page: shape
         widths: wordWidths
         notes: [view.words["form-missing"], view.words["form-skipped"]]
+        exemption: view.words["form-not-applicable"]
     }
     PlainQuestions {
         id: plainQuestions

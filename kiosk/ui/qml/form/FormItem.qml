@@ -208,12 +208,20 @@ Item {
             }
             Loader {
                 id: way
-                readonly property real room: box.beside && !box.crowned ? box.rows.scaleWidth : asked.width
-                x: Theme.across(box.crowned ? 0 : box.beside ? asked.width - room : box.inline ? asked.width - width : 0, width, asked.width)
+                readonly property real room: box.beside && !box.crowned ? box.rows.scaleWidth - box.rows.exempting : asked.width
+                x: Theme.across(box.crowned ? 0 : box.beside ? asked.width - box.rows.scaleWidth : box.inline ? asked.width - width : 0, width, asked.width)
                 y: box.crowned ? asked.height - height : box.rows.flank ? asked.middle - height / 2 : box.rows.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.y + told.height + box.lacks / 2 + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
+            }
+            // In a table, that it does not apply is a column of its own after the points.
+            Loader {
+                active: box.item.exempts && box.rows.table !== null
+                visible: active
+                x: Theme.across(asked.width - width, width, asked.width)
+                y: asked.middle - height / 2
+                sourceComponent: exemption
             }
         }
         // A kind of another package, drawn by its own file.
@@ -229,38 +237,10 @@ Item {
             onLoaded: drawn.answered.connect(value => box.form.give(box.item.id, value))
         }
         Loader {
-            active: box.item.exempts
+            active: box.item.exempts && box.rows.table === null
             visible: active
             x: Theme.across(0, width, parent.width)
-            sourceComponent: Choosable {
-                id: nothing
-                objectName: `not-applicable-${box.item.id}`
-                on: box.form.exempt.includes(box.item.id)
-                words: box.words["form-not-applicable"]
-                font.pixelSize: Theme.small
-                leftPadding: 18 * Theme.unit
-                rightPadding: 18 * Theme.unit
-                verticalPadding: (box.page.dense ? 4 : 8) * Theme.unit
-                Accessible.role: Accessible.CheckBox
-                Accessible.name: `${box.item.text} ${words}`
-                onClicked: box.form.dismiss(box.item.id)
-                contentItem: Text {
-                    textFormat: Text.PlainText
-                    text: nothing.words
-                    font: nothing.font
-                    color: nothing.on ? Theme.white : Theme.ink
-                }
-                background: Rectangle {
-                    radius: height / 2
-                    color: nothing.on ? Theme.sea : Theme.touchable
-                    border { color: Theme.sea; width: (nothing.hovered ? 4 : 2) * Theme.unit }
-                    FocusRing {
-                        around: nothing
-                        reach: 6 * Theme.unit
-                        radius: height / 2
-                    }
-                }
-            }
+            sourceComponent: exemption
         }
         Binding {
             target: guest.item
@@ -278,6 +258,38 @@ Item {
         }
     }
 
+    Component {
+        id: exemption
+        Choosable {
+            id: nothing
+            objectName: `not-applicable-${box.item.id}`
+            on: box.form.exempt.includes(box.item.id)
+            words: box.words["form-not-applicable"]
+            font.pixelSize: Theme.small
+            leftPadding: 18 * Theme.unit
+            rightPadding: 18 * Theme.unit
+            verticalPadding: (box.page.dense ? 4 : box.rows.table ? 14 : 8) * Theme.unit
+            Accessible.role: Accessible.CheckBox
+            Accessible.name: `${box.item.text} ${words}`
+            onClicked: box.form.dismiss(box.item.id)
+            contentItem: Text {
+                textFormat: Text.PlainText
+                text: nothing.words
+                font: nothing.font
+                color: nothing.on ? Theme.white : Theme.ink
+            }
+            background: Rectangle {
+                radius: height / 2
+                color: nothing.on ? Theme.sea : Theme.touchable
+                border { color: Theme.sea; width: (nothing.hovered ? 4 : 2) * Theme.unit }
+                FocusRing {
+                    around: nothing
+                    reach: 6 * Theme.unit
+                    radius: height / 2
+                }
+            }
+        }
+    }
     Component {
         id: points
         PointScale {

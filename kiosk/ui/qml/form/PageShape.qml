@@ -30,6 +30,8 @@ QtObject {
 
     // Whether there is nothing but ratings on the page.
     readonly property bool rates: items.every(item => scales(item) || item.kind === "slider")
+    // The same, and that an item does not apply may be an answer.
+    readonly property bool scaled: items.every(item => ["likert", "slider"].includes(item.kind))
     // Whether there are just a few plain questions, and room for them.
     readonly property bool few: !tight && !largeText && items.length <= 3
         && items.every(item => ["integer", "single", "text"].includes(item.kind) && !item.exempts)

@@ -16,6 +16,8 @@ QtObject {
     required property WordWidths widths
     // What may be said beside a question that is missed.
     required property list<string> notes
+    // What the button says with which a question does not apply.
+    required property string exemption
 
     readonly property bool possible: !page.upright && !page.alone && !page.largeText
     // How the rows of such a table look, all measures of them; null if they are none.
@@ -31,6 +33,8 @@ QtObject {
     // How much of a row is its question's and its scale's.
     readonly property real textWidth: measured?.textWidth ?? 0.42 * page.inner
     readonly property real scaleWidth: measured?.scaleWidth ?? 0.54 * page.inner
+    // How much of the scale's width is for that button.
+    readonly property real exempting: table?.exempting ?? 0
     // How high the content of a row is, and how much of the row is above and below that.
     readonly property real height: measured?.height ?? 98 * Theme.unit + widths.leading * Theme.size(28)
     readonly property real margin: table !== null ? table.margin : flank !== null ? flank.margin - partings * parting / 2 / Math.max(1, page.seen().length) : 18 * Theme.unit
@@ -55,7 +59,7 @@ QtObject {
 
     // Whether this scale stands beside its question.
     function beside(item: var): bool {
-        return own || text > 0 && page.scales(item)
+        return own || table !== null || text > 0 && page.scales(item)
     }
     // Whether it stands below it, in its card's width, although the others are flanked.
     function crowned(item: var): bool {
@@ -64,7 +68,7 @@ QtObject {
     // Whether the words for the ends of this item's scale are not those of the item before it.
     function heads(at: int): bool {
         const one = page.before(at), other = page.items[at] ?? null
-        return one === null || other === null || !page.scales(one)
+        return one === null || other === null || !beside(one)
             || ["points", "left", "right"].some(key => one[key] !== other[key])
     }
     // How much further than usual this item is from the one before it.
@@ -83,7 +87,7 @@ QtObject {
     // Whether all items of the page are rated on the same few points with the same words for their ends.
     function alike(): bool {
         const one = page.items[0]
-        return page.items.length > 1 && page.items.every(item => page.scales(item) && !many(item)
+        return page.items.length > 1 && page.items.every(item => item.kind === "likert" && item.points <= 7
             && ["points", "left", "right"].every(key => item[key] === one[key]))
     }
     // How a table looks in the first sizes in which it fits; null if it fits in none. A question has the width that the
@@ -93,14 +97,15 @@ QtObject {
         for (const [pointUnits, endUnits, textUnits, most] of tableTrials) {
             const point = pointUnits * Theme.unit, end = Theme.size(endUnits), text = Theme.size(textUnits)
             const ends = 1.03 * (widths.plain(one.left, end) + widths.plain(one.right, end)) + 1.5 * Theme.gap
-            const scaleWidth = Math.ceil(Math.max((one.points + 0.25 * (one.points - 1)) * point, ends))
+            const exempting = page.items.some(item => item.exempts) ? Math.ceil(1.03 * widths.plain(exemption, Theme.small)) + 36 * Theme.unit + Theme.gap : 0
+            const scaleWidth = Math.ceil(Math.max((one.points + 0.25 * (one.points - 1)) * point, ends)) + exempting
             const textWidth = page.inner - scaleWidth - 2 * Theme.gap
             const lines = Math.max(0, ...page.items.map(item => widths.lines(item.shown, text, textWidth)))
             const height = Math.max(point, widths.leading * text * Math.max(page.dense ? 1 : 2, lines))
             const head = widths.leading * end + 8 * Theme.unit
             const margin = Math.min(44 * Theme.unit, ((page.free - head) / rows - page.gap - height) / 2)
             if (lines <= most && textWidth > 0.3 * page.inner && margin >= (page.dense ? 8 : 14) * Theme.unit)
-                return {point, end, scaleWidth, textWidth, text, height, margin}
+                return {point, end, exempting, scaleWidth, textWidth, text, height, margin}
         }
         return null
     }
