@@ -51,6 +51,11 @@ def is_text(item: QQuickItem) -> bool:
     return item.inherits("QQuickText") and bool(str(item.property("text")).strip())
 
 
+def of_kind(item: QQuickItem, kind: str) -> list[QQuickItem]:
+    """Return the visible items of an item that are this component of ours."""
+    return [found for found in items(item) if found.metaObject().className().partition("_QML")[0] == kind]
+
+
 def lies_in(item: QQuickItem, *kinds: str) -> bool:
     """Whether an item is, or is part of, one of our own components of these names."""
     above: QQuickItem | None = item

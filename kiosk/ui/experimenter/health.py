@@ -7,6 +7,7 @@ from math import ceil
 
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment.booth_status import PartStatus
+from kiosk.experiment.experimenter import Action
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.lazy_dataclass import dataclass
 from kiosk.robots.embodiment import Health
@@ -30,6 +31,8 @@ class HealthLine:
     is_ok: bool = True
     remedy: str = ""
     """What the experimenter can do about it, where the message does not say so."""
+    action: str = ""
+    """The action of the panel that does it, whose button then says so; empty if it is done elsewhere."""
     is_used: bool = True
     """False for what is not set up, or off on purpose: it is no fault, but nothing is in order there either."""
     is_due: bool = False
@@ -165,7 +168,11 @@ def _voice(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
     name = catalogue.text("console-voice")
     if state.muted:
         return HealthLine(
-            name, catalogue.text("console-voice-quiet"), is_ok=False, remedy=catalogue.text("console-voice-remedy")
+            name,
+            catalogue.text("console-voice-quiet"),
+            is_ok=False,
+            remedy=catalogue.text("console-heard"),
+            action=Action.MUTE.value,
         )
     if state.voice.is_ok and state.pack_changed:
         return HealthLine(name, catalogue.text("console-voice-changed"), is_ok=False)
@@ -199,10 +206,11 @@ def _database(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
     if state.last_backup is None:
         if state.copy:
             return HealthLine(name, state.copy, is_used=False)
-        missing, remedy = translate("console-backup-none"), translate("console-backup-remedy")
-        return HealthLine(name, missing, remedy=remedy, is_due=True)
+        missing, remedy = translate("console-backup-none"), translate("console-backup")
+        return HealthLine(name, missing, remedy=remedy, action=Action.BACKUP.value, is_due=True)
     if state.last_backup.file is None:
-        return HealthLine(name, translate("console-backup-failed", why=state.last_backup.why), is_ok=False)
+        failed, remedy = translate("console-backup-failed", why=state.last_backup.why), translate("console-backup")
+        return HealthLine(name, failed, is_ok=False, remedy=remedy, action=Action.BACKUP.value)
     minutes = max(0, state.clocks.now_ms - state.last_backup.at_ms) // MS_PER_MINUTE
     return HealthLine(name, translate("console-backup-made", ago=ago(minutes, catalogue)))
 

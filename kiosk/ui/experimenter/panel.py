@@ -187,8 +187,8 @@ class Panel:
         to_do = [line for line in (*found, *more) if not line.is_ok or line.is_due]
         self._screen.show_health(
             {
-                # What is well but due stands last.
-                "matters": [asdict(line) for line in sorted(to_do, key=lambda line: line.is_due)],
+                # What a button answers stands last, and of that what is well but due.
+                "matters": [asdict(line) for line in sorted(to_do, key=lambda line: (bool(line.action), line.is_due))],
                 "lines": [asdict(line) for line in found if line not in to_do],
                 "more": [asdict(line) for line in more],
             }

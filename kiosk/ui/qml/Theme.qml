@@ -34,6 +34,8 @@ QtObject {
     readonly property color resting: highContrast ? white : Qt.tint(paper, Qt.alpha(sand, 0.5))
     // The outline of what is as easy to choose as all else, and is not what most are looking for.
     readonly property color shy: highContrast ? sea : Qt.tint(paper, Qt.alpha(sea, 0.65))
+    // The ground of what is to be seen first, and cannot be touched.
+    readonly property color stated: highContrast ? "#FFFFFF" : Qt.tint(white, Qt.alpha(sea, 0.13))
     // What lies below things that are put down on it.
     readonly property color shelf: highContrast ? "#FFFFFF" : Qt.tint(paper, Qt.alpha(sand, 0.32))
     // The outline of a card on it.

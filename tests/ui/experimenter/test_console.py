@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from datetime import datetime, timedelta
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +30,7 @@ from kiosk.units import MS_PER_SECOND
 from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth
 from tests.ui.experimenter.conftest import Desk, MakeDesk, Witness
+from tests.ui.looking import items, lies_in, of_kind
 
 LISTED = {"randomisation": {"target_n": {"tom": 2, "notom": 2}, "block_size": 4}}
 
@@ -328,14 +330,42 @@ def test_the_notice_has_all_that_is_to_be_done_and_the_checks_only_what_is_well(
     tab_to(assigner, "action-backup")
     assigner.app.experimenter.upkeep.free_space = FreeSpace(100)
     assigner.wait_until(lambda: matters(assigner) == ["Disk", "Database"])
-    # The keyboard stays on the button that the notice names.
+    # The keyboard stays on the button in the notice, which stands nowhere else.
     assert held(assigner) == "action-backup"
-    assert shows(window, "Press “Make a copy”")
+    (notice,) = of_kind(assigner.app.window.contentItem(), "PanelNotice")
+    assert lies_in(assigner.item("action-backup"), "PanelNotice")
+    assert [item.objectName() for item in items(notice) if item.objectName().startswith("action-")] == ["action-backup"]
     assert shows(window, "Disk: only 100 MiB free: make room this evening")
     assert not shows(window, "Disk")
     assigner.press(Qt.Key.Key_Return)
     assigner.wait_until(lambda: matters(assigner) == ["Disk"])
     assert shows(window, "Database")
+
+
+def test_the_sound_goes_off_and_on_by_one_key_though_its_button_moves_to_the_notice(assigner: Desk) -> None:
+    assigner.open_panel()
+    tab_to(assigner, "action-mute")
+    for place in ("PanelNotice", "PanelActions", "PanelNotice"):
+        assigner.press(Qt.Key.Key_Return)
+        assigner.wait_until(partial(holds_the_sound, assigner, place))
+        assert choices(assigner)["muted"] is (place == "PanelNotice")
+
+
+def holds_the_sound(assigner: Desk, place: str) -> bool:
+    """Whether the keyboard is on the button of the sound, and that is to be seen in this part of the panel."""
+    item: QQuickItem | None = assigner.app.window.activeFocusItem()
+    return item is not None and item.objectName() == "action-mute" and item.isVisible() and lies_in(item, place)
+
+
+def test_the_panel_shows_where_the_keyboard_is_once_a_key_is_pressed(assigner: Desk) -> None:
+    def ringed() -> bool:
+        return any(ring.isVisible() for ring in of_kind(assigner.app.window.contentItem(), "FocusRing"))
+
+    assigner.open_panel()
+    assert held(assigner) == "panel-close"
+    assert not ringed()
+    assigner.press(Qt.Key.Key_Tab)
+    assert ringed()
 
 
 def test_the_shortcuts_are_one_press_away_and_the_keyboard_is_on_their_page_then(assigner: Desk) -> None:

@@ -9,7 +9,7 @@ import pytest
 
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import Settings
-from kiosk.experiment.experimenter import DEVIATIONS
+from kiosk.experiment.experimenter import DEVIATIONS, Action
 from kiosk.robots.embodiment import Health
 from kiosk.store.maintenance import FreeSpace
 from kiosk.study.loader import read_study
@@ -106,7 +106,7 @@ def test_every_deviation_has_a_line_in_every_language(language: str) -> None:
     ],
 )
 def test_what_is_not_well_is_told_and_named_in_one_line(state: HealthInputs, name: str, words: str) -> None:
-    assert replace(told(state)[name], remedy="") == HealthLine(name, words, is_ok=False)
+    assert replace(told(state)[name], remedy="", action="") == HealthLine(name, words, is_ok=False)
     assert [line.name for line in every_line(state, CATALOGUES["en"]) if not line.is_ok] == [name]
 
 
@@ -122,8 +122,8 @@ def test_the_last_copy_is_told_in_the_size_that_matters(minutes: int, words: str
 @pytest.mark.parametrize(
     ("state", "name", "remedy"),
     [
-        (replace(WELL, has_pin=False), "PIN", "Set one with “recollect study set-pin”"),
-        (replace(WELL, supervised=False), "Supervisor", "Start it with “recollect run --supervise”"),
+        (replace(WELL, has_pin=False), "PIN", "Use “recollect study set-pin”"),
+        (replace(WELL, supervised=False), "Supervisor", "Use “recollect run --supervise”"),
         (replace(WELL, muted=True), "Voice", "Turn the sound on"),
     ],
 )
@@ -153,14 +153,24 @@ def test_what_is_not_in_use_is_no_fault_and_not_in_order_either(state: HealthInp
 
 def test_a_copy_that_was_never_made_is_no_fault_but_is_to_be_made() -> None:
     database = told(replace(WELL, last_backup=None))["Database"]
+    assert (database.remedy, database.action) == ("Make a copy", Action.BACKUP.value)
     assert (database.is_ok, database.is_due, database.message) == (True, True, "no copy yet")
     assert not told(WELL)["Database"].is_due
     assert not told(replace(WELL, last_backup=None, copy="after this session"))["Database"].is_due
 
 
+@pytest.mark.parametrize(
+    ("state", "message", "action"),
+    [
+        (replace(WELL, muted=True), "console-heard", Action.MUTE),
+        (replace(WELL, last_backup=None), "console-backup", Action.BACKUP),
+        (replace(WELL, last_backup=BackupOutcome(NOW, None, "the disk is full")), "console-backup", Action.BACKUP),
+    ],
+)
 @pytest.mark.parametrize("language", CATALOGUES)
-def test_a_missing_copy_says_which_button_to_press_in_the_words_of_that_button(language: str) -> None:
+def test_what_an_action_answers_has_its_name_and_the_words_of_its_button(
+    language: str, state: HealthInputs, message: str, action: Action
+) -> None:
     catalogue = CATALOGUES[language]
-    remedies = [line.remedy for line in health_lines(replace(WELL, last_backup=None), catalogue) if line.is_due]
-    assert len(remedies) == 1
-    assert f"“{catalogue.text('console-backup')}”" in remedies[0]
+    lines = [line for line in health_lines(state, catalogue) if line.action]
+    assert [(line.remedy, line.action) for line in lines] == [(catalogue.text(message), action.value)]

@@ -9,6 +9,8 @@ PanelSection {
 
     required property PanelScreen panel
     required property bool wide
+    // The actions whose buttons stand elsewhere, as they answer what is not well.
+    required property var answered
     // What each row of an upright screen has beside its own.
     property real spread: 0
     readonly property var words: panel.words
@@ -25,12 +27,12 @@ PanelSection {
     readonly property bool underWay: choices.underWay
     readonly property bool pausing: choices.onBreak ?? false
     readonly property int mains: (pausing ? 1 : 0) + (choices.canBeNext ? 1 : 0)
-    readonly property int others: (underWay ? 5 : 3) + (breaks.visible ? breaks.rows : 0)
+    readonly property int others: (underWay ? 5 : 3) - answered.length + (breaks.visible ? breaks.rows : 0)
     readonly property real fixed: frame + (mains + others - 1) * space + lower.words
     // Whether an upright page has much to tell.
     readonly property bool full: panel.health.matters.length > 2 || panel.records.sessions.length > 3
     // The rows of an upright page without a main action, and how high they are without the spread.
-    readonly property int lines: (underWay ? 2 : 1) * (pairs.fits ? 1 : 2) + (breaks.visible ? 1 : 0) + (lower.halves ? 0 : 1)
+    readonly property int lines: (pairs.fits ? Math.ceil(pairs.many / 2) : pairs.many) + (breaks.visible ? 1 : 0) + (lower.halves ? 0 : 1)
     readonly property real bare: frame + lines * lowest + (lines - 1) * space + lower.topPadding + (breaks.visible ? breaks.heading + breaks.spacing : 0) + (underWay && !lower.halves ? end.above : 0)
     readonly property real lowest: (wide && mains > 0 ? 76 : wide || full ? 80 : 90) * Theme.unit
     readonly property real share: wide && least > 0 && normal ? (least - fixed) / (others + 1.25 * mains) : 0
@@ -39,7 +41,7 @@ PanelSection {
 
     // What stands above buttons is not larger than their words.
     readonly property real label: normal ? Math.min(size, lettering) : size
-    readonly property real lettering: (normal ? wide ? 1.2 : 1.1 : 1) * Theme.dense
+    readonly property real lettering: (normal ? wide ? 1.32 : 1.1 : 1) * Theme.dense
 
     // How high it is at least if what stands above its buttons is written so large.
     function deep(size: real): real {
@@ -55,6 +57,16 @@ PanelSection {
         font.pixelSize: 100
     }
 
+    // Whether the button of an action stands here.
+    function has(action: string): bool {
+        return !answered.includes(action)
+    }
+    // Give the keyboard to the button of an action.
+    function take(action: string) {
+        const found = [backup, mute, wideBackup, wideMute].find(each => each.visible && each.objectName === "action-" + action)
+        found?.forceActiveFocus(Qt.OtherFocusReason)
+    }
+
     title: words["console-actions"]
     apart: (wide ? 12 : full ? 14 : 18) * Theme.unit
 
@@ -68,6 +80,27 @@ PanelSection {
         least: actions.tall
         horizontalPadding: actions.edge
         font.pixelSize: actions.lettering
+    }
+
+    // Not of Action: PySide 6.11 crashes on a component of a file that is made of another one of that file.
+    component Backup: PanelButton {
+        least: actions.tall
+        horizontalPadding: actions.edge
+        font.pixelSize: actions.lettering
+        objectName: "action-backup"
+        enabled: actions.choices.backup === ""
+        words: actions.words["console-backup"] + (enabled ? "" : ": " + actions.choices.backup)
+        drawing: "M8.5 8 H20 V21 H8.5 Z M5 16 H4 V3 H15.5 V4.5"
+        onClicked: actions.panel.wish("backup", "")
+    }
+    component Mute: PanelButton {
+        least: actions.tall
+        horizontalPadding: actions.edge
+        font.pixelSize: actions.lettering
+        objectName: "action-mute"
+        words: actions.choices.muted ? actions.words["console-heard"] : actions.words["console-mute"]
+        drawing: "M3 9.5 H7 L12.5 5 V19 L7 14.5 H3 Z " + (actions.choices.muted ? "M16 9 A4.5 4.5 0 0 1 16 15 M18.8 6.2 A8.5 8.5 0 0 1 18.8 17.8" : "M16.5 9.5 L21.5 14.5 M21.5 9.5 L16.5 14.5")
+        onClicked: actions.panel.wish("mute", "")
     }
 
     Main {
@@ -99,7 +132,11 @@ PanelSection {
     // Upright in two columns, unless the words of one need more. Why a copy has to wait may take two lines.
     Grid {
         id: pairs
-        readonly property bool fits: [pause, again, backup, mute].every(each => !each.visible || !each.enabled || each.implicitWidth <= actions.half)
+        readonly property var those: [...(actions.underWay ? [pause, again] : []), ...(actions.has("backup") ? [backup] : []), ...(actions.has("mute") ? [mute] : [])]
+        readonly property int many: those.length
+        readonly property bool fits: those.every(each => !each.enabled || each.implicitWidth <= actions.half)
+        // The last of an odd number has both columns.
+        readonly property string last: columns === 2 && many % 2 === 1 ? (actions.has("mute") ? "mute" : "backup") : ""
         readonly property real each: columns === 1 ? actions.across : actions.half
         columns: !actions.wide && fits ? 2 : 1
         columnSpacing: actions.gutter
@@ -129,23 +166,26 @@ PanelSection {
             drawing: "M19.5 12 A7.5 7.5 0 1 1 16.6 6.1 M17.5 2 V6.8 H12.7"
             onClicked: actions.panel.wish("repeat", "")
         }
-        Action {
+        Backup {
             id: backup
-            objectName: "action-backup"
-            enabled: actions.choices.backup === ""
+            visible: actions.has("backup") && pairs.last !== "backup"
             width: pairs.each
-            words: actions.words["console-backup"] + (enabled ? "" : ": " + actions.choices.backup)
-            drawing: "M8.5 8 H20 V21 H8.5 Z M5 16 H4 V3 H15.5 V4.5"
-            onClicked: actions.panel.wish("backup", "")
         }
-        Action {
+        Mute {
             id: mute
-            objectName: "action-mute"
+            visible: actions.has("mute") && pairs.last !== "mute"
             width: pairs.each
-            words: actions.choices.muted ? actions.words["console-heard"] : actions.words["console-mute"]
-            drawing: "M3 9.5 H7 L12.5 5 V19 L7 14.5 H3 Z " + (actions.choices.muted ? "M16 9 A4.5 4.5 0 0 1 16 15 M18.8 6.2 A8.5 8.5 0 0 1 18.8 17.8" : "M16.5 9.5 L21.5 14.5 M21.5 9.5 L16.5 14.5")
-            onClicked: actions.panel.wish("mute", "")
         }
+    }
+    Mute {
+        id: wideMute
+        visible: pairs.last === "mute"
+        width: actions.across
+    }
+    Backup {
+        id: wideBackup
+        visible: pairs.last === "backup"
+        width: actions.across
     }
     // Apart, at the foot or beside the break: it takes a game from a visitor.
     Grid {

@@ -12,7 +12,7 @@ PlainText {
 
     text: words
     font { pixelSize: size; bold: strong }
-    color: Theme.ink
+    color: heading ? Theme.faintInk : Theme.ink
     horizontalAlignment: Text.AlignLeft
     wrapMode: Text.Wrap
     Accessible.role: heading ? Accessible.ColumnHeader : Accessible.StaticText

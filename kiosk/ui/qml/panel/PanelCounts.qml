@@ -16,8 +16,12 @@ PanelTable {
     // What that takes.
     readonly property real last: visits.height
 
-    function fitted(size: real, width: real): real {
+    function fitted(size: real, width: real, roomy: bool): real {
         return roomy && letters.advanceWidth(records.visits) * size / 100 <= width - 2 * inset ? size : Math.max(Theme.denser, 0.94 * size)
+    }
+    // How many lines that sentence has if the page has room.
+    function lastLines(size: real, width: real): int {
+        return Math.ceil(letters.advanceWidth(records.visits) * fitted(size, width, true) / 100 / (width - 2 * inset))
     }
     FontMetrics {
         id: letters
@@ -63,7 +67,7 @@ PanelTable {
         width: parent.width
         text: counts.records.visits
         horizontalAlignment: Text.AlignLeft
-        font.pixelSize: counts.fitted(counts.size, counts.width)
+        font.pixelSize: counts.fitted(counts.size, counts.width, counts.roomy)
         color: Theme.faintInk
         wrapMode: Text.Wrap
         // At the foot of a card that ends level with one beside it.

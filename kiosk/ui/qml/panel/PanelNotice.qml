@@ -1,4 +1,4 @@
-// Everything that is to be done: a line for each matter, with what to do about it.
+// Everything that is to be done: a line for each matter, with what to do about it, or with the button that does it.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -12,17 +12,30 @@ Rectangle {
     required property real size
     required property real usual
     readonly property var matters: panel.health.matters
+    // The actions that answer one of them: their buttons stand here, and not among the others.
+    readonly property var answered: matters.map(matter => matter.action ?? "").filter(action => action !== "")
+    // How much of such a button is seen; a finger reaches it above and below that, so that the lines stay close.
+    readonly property real place: 56 * Theme.unit
+    readonly property real past: 6 * Theme.unit
+    // How high its line is at least.
+    readonly property real row: place + 8 * Theme.unit
     // The bar at its edge has the colour that warns; the ground is pale, so that the actions are seen first.
     readonly property real bar: 14 * Theme.unit
 
     // What to do stands behind what is wrong, in a column of its own, where both fit in one line; otherwise below it.
     // They are written a little smaller if they fit so. Where not all fit, each that does stands behind its own words.
+    // An upright page has the height for large letters instead.
+    readonly property real smallest: (Theme.upright ? 1.1 : 0.87) * usual
     readonly property real room: roomed(size)
     readonly property real inset: Math.round(1.1 * Theme.gap)
-    readonly property bool beside: fitted(size) >= 0.87 * usual
+    readonly property bool beside: fitted(size) >= smallest
     readonly property real written: letters(size)
     readonly property real second: widest(bold, matters.map(matter => said(matter)), written) + 1.5 * Theme.gap
     readonly property real tall: beside ? pitch(written) : 0
+    readonly property var signs: ({
+        backup: "M8.5 8 H20 V21 H8.5 Z M5 16 H4 V3 H15.5 V4.5",
+        mute: "M3 9.5 H7 L12.5 5 V19 L7 14.5 H3 Z M16 9 A4.5 4.5 0 0 1 16 15 M18.8 6.2 A8.5 8.5 0 0 1 18.8 17.8"
+    })
 
     function said(matter: var): string {
         return `${matter.name}: ${matter.message}`
@@ -34,17 +47,21 @@ Rectangle {
     function widest(measure: FontMetrics, texts: var, size: real): real {
         return Math.max(0, ...texts.map(text => long(text, measure, size)))
     }
+    // How wide the button is, or the words that say what to do.
+    function answer(matter: var, size: real): real {
+        return long(matter.remedy, plain, size) + (matter.action ? 1.8 * size + 36 * Theme.unit : 0)
+    }
     function roomed(size: real): real {
         return width - 2 * inset - 1.4 * size
     }
     // How large all of it fits in two columns of single lines. Small letters are a little wider than large ones made smaller.
     function fitted(size: real): real {
-        const both = widest(bold, matters.map(matter => said(matter)), 100) + widest(plain, matters.map(matter => matter.remedy), 100)
+        const both = widest(bold, matters.map(matter => said(matter)), 100) + Math.max(0, ...matters.map(matter => long(matter.remedy, plain, 100) + (matter.action ? 320 : 0)))
         return 99 * (roomed(size) - 1.5 * Theme.gap - 4 * Theme.unit) / both
     }
     function letters(size: real): real {
         const fits = fitted(size)
-        return fits < Math.round(size) && fits >= 0.87 * usual ? Math.floor(fits * Math.min(1, size / Math.round(size))) : size
+        return fits < Math.round(size) && fits >= smallest ? Math.floor(fits * Math.min(1, size / Math.round(size))) : size
     }
     // Lines of a few matters stand apart; many stay close, and so do larger letters, so that the page does not scroll for them.
     function pitch(written: real): real {
@@ -52,14 +69,93 @@ Rectangle {
     }
     // How high it is if it is written so large.
     function deep(size: real): real {
-        if (fitted(size) >= 0.87 * usual)
-            return matters.length * pitch(letters(size)) + 0.6 * Theme.gap
-        const room = roomed(size)
-        const lines = matters.map(matter => {
-            const said = long(notice.said(matter), bold, size), remedy = long(matter.remedy, plain, size)
-            return matter.remedy === "" || said + Theme.gap + remedy <= room ? Math.ceil(1.1 * said / room - 0.1) : Math.ceil(1.1 * said / room - 0.1) + Math.ceil(1.1 * remedy / room - 0.1)
+        if (fitted(size) >= smallest)
+            return matters.reduce((sum, matter) => sum + Math.max(matter.action ? row : 0, pitch(letters(size))), 0) + 0.6 * Theme.gap
+        const room = roomed(size), line = Math.ceil(plain.height * size / 100)
+        const heights = matters.map(matter => {
+            const said = long(notice.said(matter), bold, size), remedy = answer(matter, size)
+            const first = line * Math.ceil(1.1 * said / room - 0.1)
+            const second = matter.action ? row : line * Math.ceil(1.1 * remedy / room - 0.1)
+            return matter.remedy === "" ? first : said + Theme.gap + remedy <= room ? Math.max(first, matter.action ? row : 0) : first + second
         })
-        return lines.reduce((sum, each) => sum + each, 0) * Math.ceil(plain.height * size / 100) + (matters.length - 1) * 7 * Theme.unit + 0.9 * Theme.gap
+        return heights.reduce((sum, each) => sum + each, 0) + (matters.length - 1) * 7 * Theme.unit + 0.9 * Theme.gap
+    }
+
+    // Give the keyboard to the button of an action, if it stands here.
+    function take(action: string): bool {
+        const found = [mute, backup].find(each => each.visible && each.action === action)
+        found?.button.forceActiveFocus(Qt.OtherFocusReason)
+        return found !== undefined
+    }
+
+    // A line, with its words, and what to do about it or the button that does it.
+    component Matter: Row {
+        id: line
+        property var matter: null
+        readonly property string action: matter?.action ?? ""
+        property alias button: button
+        visible: matter !== null
+        width: sentence.width
+        readonly property real tall: action === "" ? notice.tall : Math.max(notice.tall, notice.row)
+        height: Math.max(implicitHeight, tall)
+        topPadding: Math.max(0, (tall - words.height) / 2)
+        spacing: 0.4 * notice.size
+        Item {
+            width: mark.width
+            height: told.height
+            PanelMark {
+                id: mark
+                anchors.verticalCenter: line.action === "" ? undefined : parent.verticalCenter
+                well: false
+                size: notice.written
+            }
+        }
+        // A matter's further lines stand below its words, and not below its mark.
+        Flow {
+            id: words
+            width: notice.room
+            PlainText {
+                id: told
+                width: notice.beside ? notice.second : Math.min(notice.room, notice.long(text, bold, notice.written) + Theme.gap)
+                height: Math.max(implicitHeight, line.action === "" ? 0 : notice.place)
+                verticalAlignment: Text.AlignVCenter
+                text: line.matter === null ? "" : notice.said(line.matter)
+                font { pixelSize: notice.written; bold: true }
+                color: Theme.ink
+                wrapMode: Text.Wrap
+            }
+            PlainText {
+                visible: text !== ""
+                width: notice.beside ? notice.room - notice.second : Math.min(notice.room, notice.long(text, plain, notice.written))
+                text: line.action === "" ? line.matter?.remedy ?? "" : ""
+                font.pixelSize: notice.written
+                color: Theme.ink
+                wrapMode: Text.Wrap
+            }
+            Item {
+                visible: line.action !== ""
+                width: button.width
+                height: notice.place
+                PanelButton {
+                    id: button
+                    objectName: `action-${line.action}`
+                    anchors.centerIn: parent
+                    width: Math.min(Math.ceil(implicitWidth), notice.room)
+                    enabled: line.action !== "backup" || notice.panel.choices.backup === ""
+                    least: notice.place + 2 * notice.past
+                    topInset: notice.past
+                    bottomInset: notice.past
+                    topPadding: 0
+                    bottomPadding: 0
+                    ground: Theme.white
+                    words: line.matter?.remedy ?? ""
+                    drawing: notice.signs[line.action] ?? ""
+                    sign: 1.2 * notice.written
+                    font.pixelSize: notice.written
+                    onClicked: notice.panel.wish(line.action, "")
+                }
+            }
+        }
     }
 
     // Whole pixels, so that the cards below it end level with the one beside them.
@@ -91,39 +187,20 @@ Rectangle {
         anchors { left: parent.left; right: parent.right; margins: notice.inset; verticalCenter: parent.verticalCenter }
         spacing: notice.beside ? 0 : 7 * Theme.unit
         Repeater {
-            model: notice.matters
-            delegate: Row {
-                id: matter
+            model: notice.matters.filter(matter => !matter.action)
+            delegate: Matter {
                 required property var modelData
-                width: sentence.width
-                height: Math.max(implicitHeight, notice.tall)
-                topPadding: Math.max(0, (notice.tall - words.height) / 2)
-                spacing: 0.4 * notice.size
-                PanelMark {
-                    well: false
-                    size: notice.written
-                }
-                // A matter's further lines stand below its words, and not below its mark.
-                Flow {
-                    id: words
-                    width: notice.room
-                    PlainText {
-                        width: notice.beside ? notice.second : Math.min(notice.room, notice.long(text, bold, notice.written) + Theme.gap)
-                        text: notice.said(matter.modelData)
-                        font { pixelSize: notice.written; bold: true }
-                        color: Theme.ink
-                        wrapMode: Text.Wrap
-                    }
-                    PlainText {
-                        visible: text !== ""
-                        width: notice.beside ? notice.room - notice.second : Math.min(notice.room, notice.long(text, plain, notice.written))
-                        text: matter.modelData.remedy
-                        font.pixelSize: notice.written
-                        color: Theme.ink
-                        wrapMode: Text.Wrap
-                    }
-                }
+                matter: modelData
             }
+        }
+        // Not made anew with the others: the keyboard, or a finger that lies on one, would lose it.
+        Matter {
+            id: mute
+            matter: notice.matters.find(matter => matter.action === "mute") ?? null
+        }
+        Matter {
+            id: backup
+            matter: notice.matters.find(matter => matter.action === "backup") ?? null
         }
     }
 }

@@ -77,8 +77,8 @@ Rectangle {
 
     height: numbers.y + numbers.height + 0.7 * Theme.gap
     radius: Theme.radius
-    color: Theme.white
-    border { color: Theme.edge; width: 2 * Theme.unit }
+    color: Theme.stated
+    border { color: Theme.highContrast ? Theme.edge : "transparent"; width: 2 * Theme.unit }
 
     PanelTile {
         id: state
@@ -99,7 +99,7 @@ Rectangle {
         y: now.wide ? 0.8 * Theme.gap : state.y + state.height + 0.5 * Theme.gap
         width: now.wide ? 2 * Theme.unit : now.room
         height: now.wide ? now.height - 1.6 * Theme.gap : 2 * Theme.unit
-        color: Theme.edge
+        color: Theme.shy
     }
     Row {
         id: numbers

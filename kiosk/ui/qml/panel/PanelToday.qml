@@ -16,7 +16,7 @@ Item {
     // The letters are as large as goes, up to what is read well from where the experimenter stands, as long as nothing
     // wraps and the page does not scroll for it. So is what goes on now. In whole pixels, as letters are drawn.
     readonly property real usual: wide ? 1.15 * Theme.dense : Math.max(Theme.dense, 26 * Theme.textSize * Theme.unit)
-    readonly property var grown: !tabled || panel.alarms.length > 0 || panel.records.resumable.length > 0 ? undefined : [29, 28, 27, 26].map(each => Math.round(each * Theme.unit)).filter(each => each > Math.round(usual)).find(each => holds(each) && deep(each) <= seen)
+    readonly property var grown: !tabled || panel.alarms.length > 0 || panel.records.resumable.length > 0 ? undefined : [30, 29, 28, 27, 26].map(each => Math.round(each * Theme.unit)).filter(each => each > Math.round(usual)).find(each => holds(each) && deep(each) <= seen)
     readonly property real size: grown ?? usual
     readonly property real figure: figured(grown !== undefined)
     // Whole pixels: a card at a fraction of one would lose its right edge.
@@ -48,14 +48,25 @@ Item {
     readonly property bool calm: !wide && tabled && panel.health.matters.length < 4 && panel.alarms.length === 0 && panel.records.resumable.length === 0 && !panel.choices.canBeNext && !(panel.choices.onBreak ?? false)
     readonly property real bare: first.height + 4 * space + actions.bare + health.frame + health.packed + pairs * 10 * Theme.unit
         + counts.frame + counts.packed + counts.last + sessions.frame + sessions.packed + (rows + 2) * 10 * Theme.unit + 4 * Theme.unit
-    readonly property real spread: calm ? Math.floor(Math.max(0, Math.min(24 * Theme.unit, (seen - bare) / (rows + 1 + actions.lines + pairs)))) : 0
+    readonly property real spread: calm ? Math.floor(Math.max(-4 * Theme.unit, Math.min(24 * Theme.unit, (seen - bare) / (rows + 1 + actions.lines + pairs)))) : 0
 
     readonly property bool tabled: Theme.textSize <= 1.15
     // On an upright screen all second columns begin in line.
     readonly property real gutter: Math.round(40 * Theme.unit)
 
+    // The keyboard stays on an action whose button goes from one place to the other.
+    readonly property var answered: notice.answered
+    property string acted: ""
+    readonly property Item held: today.Window.activeFocusItem
+    onHeldChanged: if (held !== null && held.visible && held.objectName.startsWith("action-")) acted = held.objectName.slice(7)
+        else if (held !== null && held.visible) acted = ""
+    onAnsweredChanged: if (["backup", "mute"].includes(acted)) Qt.callLater(follow)
+    function follow() {
+        if (acted !== "" && !notice.take(acted))
+            actions.take(acted)
+    }
     function figured(grown: bool): real {
-        return Math.max(Theme.dense * (Theme.upright ? 1.8 : 2.1), grown ? 56 * Theme.unit : 0)
+        return Math.max(Theme.dense * (Theme.upright ? 1.8 : 2.1), grown ? 60 * Theme.unit : 0)
     }
     function warned(size: real): real {
         return size > usual ? size : wide ? 1.12 * Theme.dense : Math.max(Theme.denser, 0.93 * usual)
@@ -80,7 +91,7 @@ Item {
         const table = (rows, crown) => headed(crown) + (1 + Math.max(1, rows)) * line + (rows + 0.4) * least + 2 * Theme.unit
         const checked = health.deep(size, halved(size))
         const checks = checked > 0 ? headed(wide ? crown : 0) + checked * line + (checked - 1) * (stacks(size) ? least : 10 * Theme.unit) : 0
-        const counted = table(panel.records.cells.length, crown) + least + line
+        const counted = table(panel.records.cells.length, crown) + least + line * counts.lastLines(size, wide ? main - halved(size) - space : width)
         const listed = table(panel.records.sessions.length, 0)
         const above = now.deep(size, figured(true)) + space + (panel.health.matters.length > 0 ? notice.deep(warned(size)) + space : 0)
         const acting = actions.deep(size)
@@ -110,6 +121,7 @@ Item {
         spacing: today.space
         PanelActions {
             id: actions
+            answered: notice.answered
             width: parent.width
             panel: today.panel
             wide: today.wide

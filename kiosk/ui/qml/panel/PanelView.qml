@@ -12,15 +12,23 @@ FocusScope {
     readonly property var words: panel.words
     readonly property bool wide: width >= height
     // Whole pixels: what ends at a fraction of one would lose its edge.
-    readonly property real space: Math.round(0.85 * Theme.gap)
+    readonly property real space: Math.round(0.7 * Theme.gap)
     readonly property real edge: Math.round(1.5 * Theme.gap)
     property bool onToday: true
     // The words of the ways out are as large as those of the actions.
-    readonly property real lettering: (Theme.textSize > 1.15 ? 1 : wide ? 1.2 : 1.1) * Theme.dense
+    readonly property real lettering: (Theme.textSize > 1.15 ? 1 : wide ? 1.32 : 1.1) * Theme.dense
 
     objectName: "panel"
     Keys.onEscapePressed: panel.wish("panel", "")
-    Component.onCompleted: close.forceActiveFocus(Qt.ShortcutFocusReason)
+    // The ring comes with the first key: as long as none is pressed, it would only make the way out the strongest line.
+    // A visitor who works by keyboard has it back afterwards.
+    property bool visitorsRing: false
+    Component.onCompleted: {
+        visitorsRing = Theme.byKeyboard
+        Theme.byKeyboard = false
+        close.forceActiveFocus(Qt.OtherFocusReason)
+    }
+    Component.onDestruction: if (visitorsRing) Theme.byKeyboard = true
 
     Rectangle {
         anchors.fill: parent
