@@ -141,6 +141,24 @@ def test_each_rule_has_three_lines_at_most_and_all_of_them_the_same_letters(
     assert len(tops) == (1 if size[0] > size[1] else 3)
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
+@pytest.mark.parametrize("helped", [True, False], ids=["helped", "alone"])
+def test_rules_beside_a_robot_have_three_lines_at_most(
+    booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str, *, helped: bool
+) -> None:
+    booth.app.screens.avatar.appear(present=False)
+    booth.app.screens.introduction.show(helped=helped)
+    try:
+        scenes = those(shown(booth, qtbot, "introduction", size, language), "Scene")
+        assert len(scenes) == (3 if helped else 2)
+        for scene in scenes:
+            assert sum(text.property("lineCount") for text in texts(scene)) <= 3
+    finally:
+        booth.app.screens.introduction.clear()
+        booth.app.screens.avatar.appear(present=True)
+
+
 @pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
 def test_the_arrow_of_a_rule_stands_clear_of_the_edge(booth: Booth, qtbot: QtBot, size: tuple[int, int]) -> None:
     scene = those(shown(booth, qtbot, "introduction", size), "Scene")[-1]

@@ -44,9 +44,7 @@ PageFrame {
     // How high a line is about, and its heading, if it has one.
     function said(text: string, leadSize: real, size: real, wide: real): real {
         const at = text.indexOf("\n")
-        // Several lines end before the edge, each at a word.
-        const lines = text.slice(at + 1).split("\n").map(part => widths.plain(part, size) / wide)
-            .reduce((sum, long) => sum + (long <= 0.97 ? 1 : Math.max(2, Math.ceil(long / 0.88))), 0)
+        const lines = text.slice(at + 1).split("\n").reduce((sum, part) => sum + widths.plainLines(part, size, wide), 0)
         return (at < 0 ? 0 : 1.48 * leadSize * widths.lines(text.slice(0, at), leadSize, wide)) + 1.48 * size * lines
     }
     function fits(size: real): bool {

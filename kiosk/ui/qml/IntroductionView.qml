@@ -47,7 +47,7 @@ PageFrame {
     WordWidths { id: widths }
     function lines(rule: string, sizes: var): int {
         const at = rule.indexOf("\n"), lead = at < 0 ? rule : rule.slice(0, at), rest = at < 0 ? "" : rule.slice(at + 1)
-        return widths.lines(lead, Theme.size(sizes[0]), captionWidth) + (rest === "" ? 0 : Math.ceil(widths.plain(rest, Theme.size(sizes[1])) / (0.93 * captionWidth)))
+        return widths.lines(lead, Theme.size(sizes[0]), captionWidth) + (rest === "" ? 0 : widths.plainLines(rest, Theme.size(sizes[1]), captionWidth))
     }
 
     // Six cards, some of them up or marked, above a sentence or beside it.
@@ -156,7 +156,7 @@ PageFrame {
         readonly property real cell: Math.min(turn.most, match.most, view.introduction.helped ? hint.most : Infinity)
         readonly property real tallest: Math.max(turn.wish, match.wish, view.introduction.helped ? hint.wish : 0)
         // Beside a sentence by the width alone, and above one by what is left of the height: no size follows from itself.
-        readonly property real small: Math.floor(Math.min((view.column - numbers - 3 * Theme.gap) / 4.6, 190 * Theme.unit,
+        readonly property real small: Math.floor(Math.min((view.column - numbers - 3 * Theme.gap) / 5.6, 190 * Theme.unit,
             ((view.room - (view.plain ? 0 : 0.8) * Theme.gap - (view.boards - 1) * Theme.gap) / view.boards - 2 * pad - numbers) / 2))
         // How far the cards are from a board's edges, and from an arrow's place. Below each other they are high enough.
         readonly property real numbers: (view.abreast ? 34 : 31) * Theme.unit

@@ -33,13 +33,20 @@ QtObject {
             plainWidths.set(text, plainLetters.advanceWidth(text))
         return plainWidths.get(text) * size / 100
     }
-    // How many lines of bold letters a text has in so much width.
+    // How many lines of bold letters a text has in so much width, and how many of plain ones.
     function lines(text: string, size: real, width: real): int {
-        const room = 0.98 * width, gap = bold(" ", size)
+        return linesOf(text, size, width, bold)
+    }
+    function plainLines(text: string, size: real, width: real): int {
+        return linesOf(text, size, width, plain)
+    }
+    function linesOf(text: string, size: real, width: real, measured: var): int {
+        const room = 0.98 * width, gap = measured(" ", size)
         let count = 1, end = 0
         for (const word of text.split(" ")) {
-            const wide = bold(word, size), fits = end > 0 && end + gap + wide <= room
-            count += end > 0 && !fits ? 1 : 0
+            const wide = measured(word, size), fits = end > 0 && end + gap + wide <= room
+            // A word that is longer than a line, as in languages without spaces, is broken.
+            count += (end > 0 && !fits ? 1 : 0) + Math.max(0, Math.ceil(wide / room) - 1)
             end = fits ? end + gap + wide : wide
         }
         return count
