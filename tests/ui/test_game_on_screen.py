@@ -705,12 +705,12 @@ def test_in_a_pause_the_helper_is_seen_with_its_eyes_shut_and_says_nothing(still
 
 
 def find_all(app: App, pairs: int = 2) -> None:
-    """Deal so many pairs, a row for each, and find them one after another."""
+    """Deal so many pairs in two columns, and find them one after another; no pair lies side by side."""
     board = app.screens.board
     board.deal(pairs, 2, pairs, "animals")
     lay_out(app.window)
     for row, card in enumerate(("cat", "owl", "fox")[:pairs]):
-        places = (Position(row, 0), Position(row, 1))
+        places = (Position(row, 0), Position((row + 1) % pairs, 1))
         for position in places:
             board.reveal(position, card)
         board.mark_matched(places)
@@ -719,7 +719,7 @@ def find_all(app: App, pairs: int = 2) -> None:
 @BOTH
 def test_the_last_pair_stays_forward_until_other_cards_are_dealt(still: App) -> None:
     find_all(still)
-    assert [find(still, f"card-{i}").property("proud") for i in range(4)] == [0, 0, 1, 1]
+    assert [find(still, f"card-{i}").property("proud") for i in range(4)] == [0, 1, 1, 0]
     still.screens.board.deal(2, 2, 2, "animals")
     assert {find(still, f"card-{i}").property("proud") for i in range(4)} == {0}
 
@@ -732,22 +732,42 @@ def card_width(card: QQuickItem) -> float:
 
 @BOTH
 def test_at_the_end_the_last_pair_is_larger_and_the_frames_of_the_others_get_thin(still: App) -> None:
-    def cards() -> list[QQuickItem]:
-        return [find(still, f"card-{i}") for i in range(6)]
-
     board = still.screens.board
     find_all(still, pairs=3)
-    widths = [card_width(card) for card in cards()]
-    assert min(widths[4:]) > 1.07 * max(widths[:4])
-    assert min(card.z() for card in cards()[4:]) > max(card.z() for card in cards()[:4])
+    cards = [find(still, f"card-{i}") for i in range(6)]
+    last = [card for card in cards if card.property("closes")]
+    others = [card for card in cards if card not in last]
+    assert (len(last), len(others)) == (2, 4)
+    assert min(map(card_width, last)) > 1.07 * max(map(card_width, others))
+    assert min(card.z() for card in last) > max(card.z() for card in others)
     unit = min(still.window.width(), still.window.height()) / 1080
-    for card, width in zip(cards()[:4], widths[:4], strict=True):
+    for card in others:
         frame = find(still, f"found-{card.property('index')}")
-        assert 3 * unit < (frame.width() - 0.962 * width) / 2 < 7 * unit
+        assert 3 * unit < (frame.width() - 0.962 * card_width(card)) / 2 < 7 * unit
     # Nothing is looked for any more: rows and columns have no numbers.
     assert parts(still, "QQuickText", "BoardTable") == []
     board.deal(3, 2, 3, "animals")
     assert len(parts(still, "QQuickText", "BoardTable")) == 3 + 2
+
+
+@BOTH
+@pytest.mark.parametrize("last", [(Position(0, 0), Position(0, 1)), (Position(0, 1), Position(1, 1))])
+def test_a_last_pair_that_lies_side_by_side_is_not_covered_by_its_frames(
+    still: App, last: tuple[Position, Position]
+) -> None:
+    board = still.screens.board
+    board.deal(2, 2, 2, "animals")
+    lay_out(still.window)
+    first = tuple(at for at in (Position(i // 2, i % 2) for i in range(4)) if at not in last)
+    for pair, picture in ((first, "cat"), (last, "owl")):
+        for position in pair:
+            board.reveal(position, picture)
+        board.mark_matched((pair[0], pair[1]))
+    one, other = (board.location(position) for position in last)
+    card = find(still, f"card-{one}")
+    reach = (find(still, f"last-{other}").width() + 0.962 * card_width(card)) / 2
+    assert reach <= card.width() + 1
+    assert card_width(card) > 1.03 * card_width(find(still, f"card-{board.location(first[0])}"))
 
 
 @BOTH
@@ -786,6 +806,25 @@ def test_a_mark_makes_no_card_smaller_and_is_seen_around_it(still: App) -> None:
         side = 0.962 * before / 2
         around = side + 8 * min(still.window.width(), still.window.height()) / 1080
         assert frame.contains(QRectF(middle.x() - around, middle.y() - around, 2 * around, 2 * around).toRect())
+
+
+@BOTH
+@pytest.mark.parametrize("size", [1, 1.15, 1.5])
+def test_the_arrow_at_a_row_touches_no_number(still: App, size: float) -> None:
+    still.window.setProperty("textSize", size)
+    try:
+        still.screens.board.highlight(1, 0)
+        lay_out(still.window)
+        arrows = [place(arrow) for arrow in parts(still, "QQuickShape", "Mark")]
+        numbers = [painted(number) for number in parts(still, "QQuickText", "BoardTable")]
+        inside = still.window.contentItem().boundingRect().toRect()
+    finally:
+        still.window.setProperty("textSize", 1)
+    assert len(arrows) == 2
+    # That of the row; the other is turned, and its place is not where it is drawn.
+    beside = min(arrows, key=lambda arrow: arrow.left())
+    assert not [number for number in numbers if number.intersects(beside)]
+    assert all(inside.contains(number) for number in numbers)
 
 
 @BOTH

@@ -42,6 +42,15 @@ Item {
     // The last pair stays forward, larger than its neighbours, in a frame of light. The others step back from it: their
     // frames get thin, and their pictures large.
     readonly property bool closes: boardState.last.includes(index)
+    // Side by side, the two share the line between them.
+    readonly property bool abuts: {
+        if (!closes)
+            return false
+        const [one, other] = boardState.last
+        const columns = boardLayout.columns
+        return Math.abs(one - other) === columns || (Math.abs(one - other) === 1 && Math.floor(one / columns) === Math.floor(other / columns))
+    }
+    readonly property real largest: abuts ? boardLayout.within(boardLayout.cell - 12 * Theme.unit, 1.08) : 1.08
     property real proud: closes && (settles || !coming.running) ? 1 : 0
     // A pair that was just found keeps its size in its frame until the next move.
     property real fresh: boardState.latest.includes(index) && (settles || !coming.running) ? 1 : 0
@@ -49,7 +58,7 @@ Item {
     readonly property real apart: boardState.ended * (1 - proud)
     // How large a found card is, and the frame behind it.
     readonly property real beside: boardLayout.within(boardLayout.cell - 28 * Theme.unit, 1)
-    readonly property real rested: mix(mix(mix(0.86, boardLayout.within(boardLayout.framed - 2 * boardLayout.ring, 1.01), fresh), beside, apart), 1.08, proud)
+    readonly property real rested: mix(mix(mix(0.86, boardLayout.within(boardLayout.framed - 2 * boardLayout.ring, 1.01), fresh), beside, apart), largest, proud)
     readonly property real frame: mix(mix(0.9 * boardLayout.cell, boardLayout.framed, fresh), beside * boardLayout.card + 10 * Theme.unit, apart)
     function mix(from: real, to: real, share: real): real {
         return from + (to - from) * share
@@ -94,9 +103,10 @@ Item {
 
     // A frame of light around the last pair.
     Rectangle {
+        objectName: "last-" + place.index
         visible: place.proud > 0
         anchors.centerIn: parent
-        width: (1.08 * place.boardLayout.card + 24 * Theme.unit) * (1 + 0.09 * place.cheer)
+        width: (place.largest * place.boardLayout.card + 24 * Theme.unit) * (1 + 0.09 * place.cheer)
         height: width
         opacity: place.proud
         radius: width * 0.12

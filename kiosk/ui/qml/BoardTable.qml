@@ -41,7 +41,8 @@ Item {
         model: table.boardLayout.rows
         Number {
             required property int index
-            x: -(table.upright ? table.boardLayout.gutter : table.boardLayout.numbers)
+            // Large letters begin nearer to the edge, clear of a mark's arrow.
+            x: -(table.upright ? table.boardLayout.gutter + 24 * Math.max(0, Theme.textSize - 1) * Theme.unit : table.boardLayout.numbers)
             y: index * table.boardLayout.cell
             width: table.boardLayout.numbers - (table.upright ? 0 : 30 * Theme.unit)
             height: table.boardLayout.cell
