@@ -697,6 +697,32 @@ def test_the_words_for_the_ends_stand_once_above_the_points_of_a_wide_page_of_ra
     assert window.shown.width() == 1920
 
 
+@pytest.mark.parametrize("language", SHIPPED)
+@pytest.mark.parametrize("size", TextSize)
+def test_the_title_of_an_upright_page_of_ratings_keeps_its_line_and_the_page_needs_no_scrolling(
+    kiosk: tuple[Window, StudyConfig], size: TextSize, language: str
+) -> None:
+    window, ground = kiosk[0], kiosk[0].shown.contentItem()
+    assert list(shown_in(kiosk, Layout(1080, 1920), ("four ratings",))) == ["four ratings"]
+    window.screens.set_language(next(plan for plan in kiosk[1].plans if plan.language == language).catalogue)
+    window.screens.avatar.leave(away=True)
+    try:
+        window.screens.kiosk.set_text_size(size)
+        window.screens.form.show(SIXTEEN[:4], 2, 5, (), ASKED["social-intelligence"].title)
+        lay_out(window.shown)
+        title, number = find_item(ground, "page-title"), find_item(ground, "form-progress")
+        assert title is not None
+        assert title.property("lineCount") == 1
+        assert find_item(ground, "page-line") is not None
+        # The number goes where both would have no room in one line.
+        assert number is not None or size is not TextSize.NORMAL
+        assert number is None or size is not TextSize.LARGEST
+        assert find_item(ground, "more") is None
+    finally:
+        window.screens.avatar.leave(away=False)
+        window.screens.kiosk.set_text_size(TextSize.NORMAL)
+
+
 def test_that_an_item_does_not_apply_is_a_column_after_the_points_of_a_wide_page(
     kiosk: tuple[Window, StudyConfig],
 ) -> None:

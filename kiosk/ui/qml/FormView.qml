@@ -47,7 +47,11 @@ PageFrame {
     way.opacity: setBack
     label: words[form.skips ? "form-skip" : "form-next"]
     beside: progress
-    besides: shape.numbered
+    // A title that has one line keeps it, and the line of pages tells what the number would.
+    readonly property real titleWish: wordWidths.slack * wordWidths.bold(title, Theme.pageTitle)
+    readonly property real numberSize: Theme.size(shape.upright && Theme.textSize > 1 ? 30 : 34)
+    readonly property real numberWish: wordWidths.slack * wordWidths.plain(form.progress, numberSize) + Theme.gap
+    besides: shape.numbered && (titleWish + numberWish <= column - cornered || titleWish > column - cornered)
     onWent: form.proceed()
     covered: keyboard.field === null || keyboard.numbers ? 0 : keyboard.height
     lift: {
@@ -160,7 +164,7 @@ PageFrame {
         textFormat: Text.PlainText
         visible: view.besides
         text: view.form.progress
-        font.pixelSize: Theme.size(34)
+        font.pixelSize: view.numberSize
         // Beside the title on a wide screen, where the controls and the dots of the visit are at the end of its line.
         readonly property bool follows: !shape.upright && view.titleWidth + width + Theme.gap < view.column - view.cornered + 1
         x: follows ? Theme.across(view.titleWidth + Theme.gap, width, view.column - view.cornered) : Theme.across(view.column - width, width, view.column)
