@@ -301,3 +301,22 @@ def test_warnings_in_two_columns_have_one_line_each(
         assert len(told) == 2 * len(shown)
         if notice.property("beside"):
             assert {text.property("lineCount") for text in told} == {1}
+
+
+@pytest.mark.parametrize("language", sorted(CATALOGUES))
+@pytest.mark.parametrize("size", LAYOUTS)
+def test_a_session_with_three_matters_needs_no_scrolling(window: Window, language: str, size: tuple[int, int]) -> None:
+    calm, busy, told = calm_day(language), busy_day(language), CATALOGUES[language].text
+    copy = HealthLine(
+        told("console-database"),
+        told("console-backup-none"),
+        remedy=told("console-backup"),
+        action="backup",
+        is_due=True,
+    )
+    health = busy["health"] | {"matters": [*busy["health"]["matters"], asdict(copy)]}
+    show(window, language, size, **calm | {"health": health, "choices": busy["choices"]})
+    (today,) = of_kind(window.shown.contentItem(), "PanelToday")
+    assert today.height() <= today.property("seen")
+    (button,) = [item for item in items(today) if item.objectName() == "action-backup"]
+    assert lies_in(button, "PanelNotice")

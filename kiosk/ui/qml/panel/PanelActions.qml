@@ -34,7 +34,7 @@ PanelSection {
     // The rows of an upright page without a main action, and how high they are without the spread.
     readonly property int lines: (pairs.fits ? Math.ceil(pairs.many / 2) : pairs.many) + (breaks.visible ? 1 : 0) + (lower.halves ? 0 : 1)
     readonly property real bare: frame + lines * lowest + (lines - 1) * space + lower.topPadding + (breaks.visible ? breaks.heading + breaks.spacing : 0) + (underWay && !lower.halves ? end.above : 0)
-    readonly property real lowest: (wide && mains > 0 ? 76 : wide || full ? 80 : 90) * Theme.unit
+    readonly property real lowest: (wide ? (mains > 0 ? 76 : 80) : full ? 76 : 90) * Theme.unit
     readonly property real share: wide && least > 0 && normal ? (least - fixed) / (others + 1.25 * mains) : 0
     readonly property real tall: Math.floor(Math.max(lowest + spread, Math.min(128 * Theme.unit, share)))
     readonly property real mainTall: Math.floor((wide ? 1.25 : 1.1) * tall)
@@ -50,7 +50,7 @@ PanelSection {
         const asked = breaks.visible ? tall * lines(breaks.title) + breaks.spacing : 0
         const parted = underWay && !lower.halves ? line.height + tall * lines(then.text) + 2 * end.spacing : 0
         const rows = wide ? others + 1.25 * mains : actions.lines
-        return Math.ceil(1.12 * tall) + 1.3 * Theme.gap + inset + rows * lowest + ((wide ? others + mains : rows) - 1) * space + lower.topPadding + asked + parted
+        return Math.ceil(1.12 * tall) + edges + rows * lowest + ((wide ? others + mains : rows) - 1) * space + lower.topPadding + asked + parted
     }
     FontMetrics {
         id: letters

@@ -52,7 +52,7 @@ PanelTable {
     PanelButton {
         id: names
         parent: counts
-        anchors { top: parent.top; right: parent.right; margins: counts.inset; topMargin: 0.8 * Theme.gap }
+        anchors { top: parent.top; right: parent.right; margins: counts.inset; topMargin: counts.above }
         objectName: "names"
         // Lower than what is done all day.
         least: 58 * Theme.unit

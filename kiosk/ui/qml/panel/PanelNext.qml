@@ -50,7 +50,7 @@ Item {
                 id: names
                 parent: later
                 objectName: "names-of-choices"
-                anchors { top: parent.top; right: parent.right; margins: later.inset; topMargin: 0.8 * Theme.gap }
+                anchors { top: parent.top; right: parent.right; margins: later.inset; topMargin: later.above }
                 width: Math.min(Math.ceil(implicitWidth), Math.floor(0.6 * later.width))
                 visible: next.choices.conditions.length > 0
                 words: next.choices.named ? next.words["console-names-hide"] : next.words["console-names-show"]

@@ -78,7 +78,7 @@ Rectangle {
             const second = matter.action ? row : line * Math.ceil(1.1 * remedy / room - 0.1)
             return matter.remedy === "" ? first : said + Theme.gap + remedy <= room ? Math.max(first, matter.action ? row : 0) : first + second
         })
-        return heights.reduce((sum, each) => sum + each, 0) + (matters.length - 1) * 7 * Theme.unit + 0.9 * Theme.gap
+        return heights.reduce((sum, each) => sum + each, 0) + (matters.length - 1) * 5 * Theme.unit + 0.7 * Theme.gap
     }
 
     // Give the keyboard to the button of an action, if it stands here.
@@ -159,7 +159,7 @@ Rectangle {
     }
 
     // Whole pixels, so that the cards below it end level with the one beside them.
-    height: Math.ceil(sentence.height + (beside ? 0.6 : 0.9) * Theme.gap)
+    height: Math.ceil(sentence.height + (beside ? 0.6 : 0.7) * Theme.gap)
     radius: Theme.radius
     color: Theme.amber
 
@@ -185,7 +185,7 @@ Rectangle {
     Column {
         id: sentence
         anchors { left: parent.left; right: parent.right; margins: notice.inset; verticalCenter: parent.verticalCenter }
-        spacing: notice.beside ? 0 : 7 * Theme.unit
+        spacing: notice.beside ? 0 : 5 * Theme.unit
         Repeater {
             model: notice.matters.filter(matter => !matter.action)
             delegate: Matter {

@@ -17,6 +17,8 @@ Rectangle {
     required property real figure
     readonly property real number: Theme.dense * (Theme.upright ? 1.8 : 2.1)
     readonly property real inset: Math.round(1.1 * Theme.gap)
+    // What lies between the stage and the numbers below it.
+    readonly property real apart: 0.7 * Theme.gap
     readonly property real room: width - 2 * inset
     // What each needs for one line of everything; the last line can be two.
     readonly property string session: panel.choices.underWay ? panel.choices.session : ""
@@ -64,7 +66,7 @@ Rectangle {
     }
     function deep(size: real, figure: real): real {
         const lines = number => Math.ceil(plain.height * size / 100) * 2 + Math.ceil(plain.height * number / 100)
-        return 1.3 * Theme.gap + lines(figure) + (session === "" ? 0 : Math.ceil(0.22 * plain.height * size / 100)) + (besides(size, figure) ? 0 : inset + lines(number))
+        return 1.3 * Theme.gap + lines(figure) + (session === "" ? 0 : Math.ceil(0.22 * plain.height * size / 100)) + (besides(size, figure) ? 0 : apart + lines(number))
     }
     FontMetrics {
         id: plain
@@ -96,7 +98,7 @@ Rectangle {
     }
     Rectangle {
         x: now.wide ? now.inset + now.from - 0.7 * Theme.gap : now.inset
-        y: now.wide ? 0.8 * Theme.gap : state.y + state.height + 0.5 * Theme.gap
+        y: now.wide ? 0.8 * Theme.gap : state.y + state.height + 0.3 * Theme.gap
         width: now.wide ? 2 * Theme.unit : now.room
         height: now.wide ? now.height - 1.6 * Theme.gap : 2 * Theme.unit
         color: Theme.shy
@@ -106,7 +108,7 @@ Rectangle {
         // Without a target, and before the first game, there is nothing to tell of it.
         readonly property var shown: now.tiles.filter(each => each.name !== "stage" && each.value !== "-")
         x: now.inset + now.from
-        y: now.wide ? state.y : state.y + state.height + now.inset
+        y: now.wide ? state.y : state.y + state.height + now.apart
         height: Math.max(childrenRect.height, now.wide ? state.height : 0)
         spacing: Theme.gap
         Repeater {

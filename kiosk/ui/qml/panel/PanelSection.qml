@@ -17,8 +17,11 @@ Rectangle {
     readonly property real inset: Math.round(1.1 * Theme.gap)
     // How high it is at least, where it ends with another one beside it.
     property real least: 0
-    // What it takes beside what stands in it.
-    readonly property real frame: heading.height + 1.3 * Theme.gap + inset
+    // What is free above its heading, below that, and below all; and what it takes beside what stands in it.
+    readonly property real above: 0.65 * Theme.gap
+    readonly property real between: 0.4 * Theme.gap
+    readonly property real edges: above + between + 0.85 * Theme.gap
+    readonly property real frame: heading.height + edges
     readonly property real wish: body.height + frame
 
     // Whole pixels, so that those side by side end in line.
@@ -29,7 +32,7 @@ Rectangle {
 
     PlainText {
         id: heading
-        anchors { top: parent.top; left: parent.left; right: parent.right; margins: section.inset; topMargin: 0.8 * Theme.gap }
+        anchors { top: parent.top; left: parent.left; right: parent.right; margins: section.inset; topMargin: section.above }
         anchors.rightMargin: section.inset + section.aside + (section.aside > 0 ? 0.5 * Theme.gap : 0)
         height: Math.max(implicitHeight, section.crown)
         verticalAlignment: Text.AlignVCenter
@@ -40,7 +43,7 @@ Rectangle {
     }
     Column {
         id: body
-        anchors { top: heading.bottom; left: parent.left; right: parent.right; margins: section.inset; topMargin: 0.5 * Theme.gap }
+        anchors { top: heading.bottom; left: parent.left; right: parent.right; margins: section.inset; topMargin: section.between }
         spacing: section.apart
     }
 }

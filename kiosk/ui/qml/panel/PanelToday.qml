@@ -48,7 +48,7 @@ Item {
     readonly property bool calm: !wide && tabled && panel.health.matters.length < 4 && panel.alarms.length === 0 && panel.records.resumable.length === 0 && !panel.choices.canBeNext && !(panel.choices.onBreak ?? false)
     readonly property real bare: first.height + 4 * space + actions.bare + health.frame + health.packed + pairs * 10 * Theme.unit
         + counts.frame + counts.packed + counts.last + sessions.frame + sessions.packed + (rows + 2) * 10 * Theme.unit + 4 * Theme.unit
-    readonly property real spread: calm ? Math.floor(Math.max(-4 * Theme.unit, Math.min(24 * Theme.unit, (seen - bare) / (rows + 1 + actions.lines + pairs)))) : 0
+    readonly property real spread: calm ? Math.floor(Math.max(-6 * Theme.unit, Math.min(24 * Theme.unit, (seen - bare) / (rows + 1 + actions.lines + pairs)))) : 0
 
     readonly property bool tabled: Theme.textSize <= 1.15
     // On an upright screen all second columns begin in line.
@@ -86,7 +86,7 @@ Item {
     function deep(size: real): real {
         const line = Math.ceil(letters.height * size / 100)
         const least = (wide ? 7 : 10) * Theme.unit
-        const headed = crown => Math.ceil(Math.max(1.12 * line, crown)) + 1.3 * Theme.gap + counts.inset
+        const headed = crown => Math.ceil(Math.max(1.12 * line, crown)) + counts.edges
         const crown = panel.records.cells.length > 0 ? Math.max(58 * Theme.unit, 0.95 * line + 18 * Theme.unit) : 0
         const table = (rows, crown) => headed(crown) + (1 + Math.max(1, rows)) * line + (rows + 0.4) * least + 2 * Theme.unit
         const checked = health.deep(size, halved(size))
