@@ -77,8 +77,11 @@ QtObject {
     readonly property real spare: Math.floor(height - lent - 20 * Theme.unit - strip - numbers - footer - rows * widest) - 1
     // On an upright screen, what more there is lies below the tray: words and tray begin where those of the practice do.
     readonly property real lower: upright ? Math.max(0, Math.min(26 * Theme.unit, (spare - apart) / 5)) : 0
+    // Where much is left, the cards stand in the middle between the tray and a short sentence. A long one covers none.
+    readonly property real lowered: Math.max(0, Math.min(16 * Theme.unit, 0.3 * lent, spare - 2.5 * apart))
     readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
         + Math.max(upright && Theme.textSize > 1.15 ? 18 * Theme.unit : 0, Math.min(apart + 5 * lower, spare))
+        + lowered
     // How high the page has to be on an upright screen, for cells as wide as there is room for.
     readonly property real wish: 52 * Theme.unit + shelf + apart + numbers + pillHeight + rows * widest
 
