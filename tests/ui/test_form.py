@@ -19,6 +19,7 @@ from kiosk.ui.screens.questionnaire import kept_together
 from kiosk.ui.simulated_visitor import UiDriver, find_item, item_centre
 from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth, MakeBooth
+from tests.ui.looking import items, place, texts
 from tests.ui.reaching import Finger
 
 ITEMS: dict[str, Item] = {
@@ -476,30 +477,78 @@ def test_the_keys_on_the_screen_come_for_a_touch_and_not_for_a_mouse(booth: Boot
     assert item_centre(booth.item("number-alone")) == place
 
 
-def test_the_options_of_a_wide_page_stand_in_two_columns_or_fill_their_rows_and_leave_no_hole(
-    make_booth: MakeBooth, qtbot: QtBot
+def about_you(booth: Booth, qtbot: QtBot, width: int, height: int) -> list[list[QQuickItem]]:
+    """Show the questions about the visitor in a window of this size; returns the options of both that have some."""
+    window = booth.app.window
+    window.resize(width, height)
+    qtbot.waitUntil(lambda: window.contentItem().width() == width)
+    ask(booth, *Questionnaire.read(ASSETS / "questionnaires" / "about-you.toml").items)
+    named = {"gender": ("woman", "man", "another", "not_said"), "robots": ("none", "stories", "fairs", "owns", "works")}
+    return [[booth.item(f"option-{item}-{name}") for name in names] for item, names in named.items()]
+
+
+@pytest.mark.parametrize("language", ["en", "es", "it"])
+@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1366, 768), (1080, 1920)])
+def test_the_options_of_all_questions_stand_in_the_same_two_columns(
+    make_booth: MakeBooth, qtbot: QtBot, width: int, height: int, language: str
+) -> None:
+    booth = make_booth()
+    booth.app.screens.set_language(CATALOGUES[language])
+    asked = about_you(booth, qtbot, width, height)
+    assert not booth.sees("more")
+    columns = [(option.x(), option.width()) for option in asked[0][:2]]
+    assert columns[0][1] == columns[1][1]
+    for options in asked:
+        # The last of an odd number is as wide as the others.
+        assert [(option.x(), option.width()) for option in options] == (columns * 3)[: len(options)]
+        for left, right in zip(options[::2], options[1::2], strict=False):
+            assert (left.y(), left.height()) == (right.y(), right.height())
+        assert max(option.height() for option in options) < 1.6 * min(option.height() for option in options)
+
+
+def test_what_a_finger_meets_on_an_upright_page_is_as_high_as_the_way_on(make_booth: MakeBooth, qtbot: QtBot) -> None:
+    booth = make_booth()
+    asked = about_you(booth, qtbot, 1080, 1920)
+    found = [*asked[0], *asked[1], booth.item("number-age")]
+    assert {round(each.height()) for each in found} == {round(booth.item("continue").height())} == {112}
+    assert asked[0][2].y() - asked[0][0].y() == 132
+    # An option of many words has a second line for them.
+    assert max(text.property("lineCount") for text in texts(asked[1][3])) == 2
+
+
+@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])
+def test_options_whose_words_have_no_room_beside_each_other_stand_below_each_other(
+    make_booth: MakeBooth, qtbot: QtBot, width: int, height: int
 ) -> None:
     booth = make_booth()
     window = booth.app.window
-    window.resize(1920, 1080)
-    qtbot.waitUntil(lambda: window.contentItem().width() == 1920)
-    ask(booth, *Questionnaire.read(ASSETS / "questionnaires" / "about-you.toml").items)
-    genders = [booth.item(f"option-gender-{name}") for name in ("woman", "man", "another", "not_said")]
-    robots = [booth.item(f"option-robots-{name}") for name in ("none", "stories", "fairs", "owns", "works")]
-    left, right = ((option.x(), option.width()) for option in genders[:2])
-    assert left[1] == right[1]
-    assert (genders[2].x(), genders[2].width()) == left
-    assert (genders[3].x(), genders[3].width()) == right
-    # An odd number of them takes fewer rows side by side, which end where the columns do.
-    tops = [option.y() for option in robots]
-    assert tops == [tops[0]] * 3 + [tops[3]] * 2
-    assert tops[3] - tops[0] == genders[2].y() - genders[0].y()
-    assert {option.x() for option in (robots[0], robots[3])} == {0}
-    ends = [option.x() + option.width() for option in (genders[1], robots[2], robots[4])]
-    assert max(ends) - min(ends) <= 1
-    assert len({option.height() for option in (*genders, *robots)}) == 1
-    # Words that fit have the columns of the question before.
-    assert [(option.x(), option.width()) for option in robots[3:]] == [left, right]
+    window.resize(width, height)
+    qtbot.waitUntil(lambda: window.contentItem().width() == width)
+    single = Questionnaire.read(ASSETS / "questionnaires" / "about-you.toml").items[2]
+    shown = single.model_dump()
+    shown["options"][1]["text"] = {"en": "Donaudampfschifffahrtselektrizitätenhauptbetriebswerkbeamtengesellschaft"}
+    ask(booth, ITEMS["integer"], type(single).model_validate(shown))
+    options = [booth.item(f"option-robots-{name}") for name in ("none", "stories", "fairs", "owns", "works")]
+    assert {option.x() for option in options} == {0}
+    assert len({option.width() for option in options}) == 1
+    words = next(iter(texts(options[1])))
+    assert words.property("contentWidth") <= words.width() + 1
+    assert words.mapToItem(options[1], QPointF(words.width(), 0)).x() <= options[1].width()
+
+
+def test_the_keys_beside_a_wide_page_keep_their_distance_from_the_helper(make_booth: MakeBooth, qtbot: QtBot) -> None:
+    booth = make_booth()
+    about_you(booth, qtbot, 1920, 1080)
+    booth.click("number-age")
+    key = place(booth.item("key-done"))
+    ears = [
+        place(item)
+        for item in items(booth.app.window.contentItem())
+        if item.metaObject().className().startswith("AvatarEar")
+    ]
+    assert len(ears) == 2
+    # The last row of keys is 20 px from the edge around all of them.
+    assert min(ear.top() for ear in ears) - key.bottom() - 20 >= 60
 
 
 def test_an_upright_page_s_keys_stand_below_their_question_over_all_others_until_they_are_done_with(

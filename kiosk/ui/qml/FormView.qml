@@ -196,7 +196,7 @@ PageFrame {
                 - (plainQuestions.columns !== null ? 12 * Theme.unit : 0)
             readonly property int optionRows: summed(box => box.optionRows)
             // How much higher than usual each row of options of an upright page is.
-            readonly property real grown: shape.easy && optionRows > 0 ? Math.max(0, Math.min(16 * Theme.unit, Math.floor((room - plain) / optionRows))) : 0
+            readonly property real grown: shape.easy && optionRows > 0 ? Math.max(0, Math.min(28 * Theme.unit, Math.floor((room - plain) / optionRows))) : 0
             readonly property real addable: summed(box => box.addable)
             readonly property real loosened: (shape.calm || shape.rated) && addable > 0 ? Math.max(0, Math.min(1, (room - plain - optionRows * grown) / addable)) : 0
             readonly property real tall: summed(box => box.height)

@@ -191,7 +191,7 @@ Item {
             // The same in the question's line.
             PlainText {
                 visible: box.inline && box.ranged
-                x: question.contentWidth + 1.25 * Theme.gap
+                x: Theme.across(question.contentWidth + 1.25 * Theme.gap, width, asked.width)
                 y: told.y + question.y + question.baselineOffset - baselineOffset
                 text: box.item.range ?? ""
                 font.pixelSize: Theme.size(32)
@@ -344,22 +344,15 @@ Item {
     Component {
         id: choice
         ChoiceList {
-            width: box.page.alone ? Math.min(content.width, 860 * Theme.unit) : content.width
+            width: Math.min(content.width, box.questions.optionsWidth)
             item: box.item.id
             label: box.item.text
             options: box.item.options
             several: box.item.kind === "multiple"
             chosen: box.answer === undefined ? [] : several ? box.answer : [box.answer]
-            alone: box.page.alone
-            dense: box.form.items.length > 3
-            large: box.page.airy
-            size: box.questions.optionSize
+            questions: box.questions
+            arranged: box.questions.rows(box.item)
             grown: box.grown
-            easy: box.page.easy
-            paired: box.questions.columns?.size ?? 0
-            shared: box.questions.shared(box.item)
-            gridGap: (box.columned ? 16 : box.page.calm ? 18 : 12) * Theme.unit
-            usual: box.questions.columns?.height ?? (box.page.tight || (box.page.largeText && !box.page.large) || box.form.items.length > 3 ? 62 : box.page.airy ? 84 : 76) * Theme.unit
             onPicked: option => several ? box.form.toggle(box.item.id, option) : box.form.choose(box.item.id, option)
         }
     }
@@ -367,6 +360,7 @@ Item {
         id: number
         NumberField {
             room: content.width
+            tall: box.questions.fieldHeight
             inline: box.inline
             keyed: box.keyed
             item: box.item.id

@@ -9,6 +9,7 @@ Row {
     id: number
 
     required property real room         // how wide it may be
+    required property real tall         // how high its field is
     required property string item
     required property FormScreen form
     required property string label
@@ -35,6 +36,8 @@ Row {
         field.text = form.step(item, field.text, by)
     }
 
+    readonly property real stepSize: Math.min(tall, 96 * Theme.unit)
+
     spacing: 20 * Theme.unit
 
     TextMetrics {
@@ -47,8 +50,9 @@ Row {
         id: button
         property bool up: false
         required property int by
-        width: field.height
-        height: field.height
+        anchors.verticalCenter: parent.verticalCenter
+        width: number.stepSize
+        height: number.stepSize
         focusPolicy: Qt.StrongFocus
         // A number that runs while a button is held is an answer when the button is let go.
         autoRepeat: true
@@ -113,8 +117,8 @@ Row {
         minus: number.minus
         // As wide as the longest number; digits of another script may be wider still.
         settled: Math.max(Math.max(260, 228 * Theme.textSize) * Theme.unit, Math.max(widest.advanceWidth, contentWidth) + leftPadding + rightPadding + 8 * Theme.unit)
-        width: settled + (number.bare ? 2 * (height + number.spacing) : 0)
-        height: 1.37 * Theme.body + 32 * Theme.unit
+        width: settled + (number.bare ? 2 * (number.stepSize + number.spacing) : 0)
+        height: number.tall
         topPadding: 2 * Theme.unit
         bottomPadding: 2 * Theme.unit
         font { pixelSize: Theme.size(50); bold: true }
@@ -134,7 +138,7 @@ Row {
         visible: !number.inline
         anchors.verticalCenter: parent.verticalCenter
         leftPadding: 0.5 * Theme.gap
-        width: Math.min(implicitWidth, number.room - 2 * field.height - field.width - 3 * number.spacing)
+        width: Math.min(implicitWidth, number.room - 2 * number.stepSize - field.width - 3 * number.spacing)
         wrapMode: width < implicitWidth ? Text.Wrap : Text.NoWrap
         text: number.range
         font.pixelSize: Theme.small

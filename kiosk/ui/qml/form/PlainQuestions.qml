@@ -9,61 +9,71 @@ QtObject {
     required property PageShape page
     required property WordWidths widths
 
-    // How large the questions of a wide page are whose options all stand in two columns, or in rows that they share.
+    // How large the questions of a wide page are whose options all have the room for large letters.
     readonly property real asking: Theme.size(36)
-    // How large and how high such options are; null if they do not stand so.
-    readonly property var columns: !page.calm || page.upright || page.alone || Theme.mirrored ? null : columned()
-    // How large the options of an upright page are: as large as leaves them in as many rows as the usual size does.
-    readonly property real optionSize: (page.easy ? [38, 36].map(Theme.size).find(
-        size => page.items.every(item => stackedRows(item, size) === stackedRows(item, usual))) : null) ?? usual
-    readonly property real usual: Theme.size(34)
-
-    // How far the columns are apart, and what an option has beside its words.
-    readonly property real gutter: 16 * Theme.unit
-    readonly property real around: 79 * Theme.unit
-    // How much width the field of a number takes beside its question, with its buttons.
-    readonly property real fieldWidth: 470 * Theme.unit
+    // How large and how high such options are, and whether they fill their rows; null if they have no room.
+    readonly property var columns: !page.calm || page.upright || page.alone ? null : columned()
+    // How large options are. Those of an upright page are as large as leaves them as many lines as the usual size does.
+    readonly property real optionSize: columns?.size ?? (page.alone ? Theme.body : !page.airy ? Theme.reading
+        : (page.easy ? [38, 36].map(Theme.size).find(size => optionLines(size) === optionLines(Theme.size(34))) : null) ?? Theme.size(34))
+    // How high options are at least, and how far they are apart.
+    readonly property real optionHeight: columns?.height
+        ?? (page.tight || (page.largeText && !page.large) || page.items.length > 3 ? 62 : page.airy ? 84 : 76) * Theme.unit
+    readonly property real gutter: (columns !== null ? wideGutter : page.easy ? 20 : page.airy ? 18 : page.tight || page.largeText ? 8 : 12) * Theme.unit
+    readonly property real wideGutter: 14
+    // How large the ring before an option's words is, and what there is before it, between both, and at the end.
+    readonly property real ring: (page.easy ? 44 : 34) * Theme.unit
+    readonly property real beforeRing: (page.largeText && !page.large ? 14 : 20) * Theme.unit
+    readonly property real afterRing: (page.largeText && !page.large ? 10 : 14) * Theme.unit
+    readonly property real afterWords: (page.easy || page.alone ? 20 : 10) * Theme.unit
+    readonly property real around: ring + beforeRing + afterRing + afterWords + 2 * Theme.unit
+    // How much width options have.
+    readonly property real optionsWidth: page.alone ? Math.min(page.column, 860 * Theme.unit) : page.inner
+    // In how many columns options stand at most. Those of several questions stand in the same two, where there is height for that.
+    readonly property int most: !page.tight && page.items.length <= 3 && page.items.filter(item => item.options !== undefined).length > 1 ? 2 : 6
+    // Whether the page lacks the height for as many rows as that takes.
+    readonly property bool lean: page.items.length > 3
+        || !page.upright && !page.alone && (page.tight || page.largeText || page.calm && columns?.filled !== false)
+    // How high the field of a number is, and how much width it takes beside its question, with its buttons.
+    readonly property real fieldHeight: page.easy ? 112 * Theme.unit : 1.37 * Theme.body + 32 * Theme.unit
+    readonly property real fieldWidth: (page.easy ? 492 : 470) * Theme.unit
 
     // Whether the field of a number stands beside its question: only a calm wide page's and an upright one's cards are
     // broad enough for both.
     function inline(item: var): bool {
-        return (page.upright || page.calm && !Theme.mirrored) && !page.alone && !page.largeText && item.kind === "integer" && !item.exempts
-            && widths.bold(item.text, Theme.size(38)) + fieldWidth <= page.inner
+        return (page.upright || page.calm) && !page.alone && !page.largeText && item.kind === "integer" && !item.exempts
+            && widths.bold(item.text, Theme.size(page.easy ? 37 : 38)) + fieldWidth <= page.inner
     }
     // Whether what the number may be stands in the question's line.
     function ranged(item: var): bool {
         return columns !== null && item.kind === "integer" && rangeFits(item)
     }
-    // How many options each row of this question has where they share rows; none where they stand in two columns.
-    function shared(item: var): var {
-        return columns !== null ? sharedAt(item, columns.size) : []
-    }
-
-    // The largest letters, and with them the highest options, with which all questions fit.
+    // The largest letters, and with them the highest options, with which all questions fit: in columns, or else in rows that
+    // are filled.
     function columned(): var {
-        const heights = [84, 80, 78, 77, 76, 75, 74, 72, 68].map(height => height * Theme.unit)
-        const sizes = [34, 33, 32, 31, 30, 29].map(Theme.size)
-        for (const size of sizes.filter(size => page.items.every(item => fits(item, size)))) {
-            const height = heights.find(height => pageHeight(size, height) <= page.free)
-            if (height !== undefined)
-                return {size, height}
-        }
+        const heights = [84, 82, 80, 78, 77, 76, 75, 74, 72, 70, 68].map(height => height * Theme.unit)
+        if (!page.items.every(item => item.kind === "integer" || item.kind === "single"))
+            return null
+        for (const filled of [false, true])
+            for (const size of [34, 33, 32, 31, 30, 29].map(Theme.size)) {
+                // Small letters are set on whole pixels, which makes them higher.
+                const room = page.free - (Theme.unit < 0.9 ? 22 : 6) * Theme.unit
+                const height = heights.find(height => pageHeight(size, height, filled) <= room)
+                if (height !== undefined)
+                    return {size, height, filled}
+            }
         return null
     }
-    // Whether the options of this question have room in halves of the card, or in rows that they share.
-    function fits(item: var, size: real): bool {
-        const half = (page.inner - gutter) / 2 - around
-        return item.kind === "integer" || item.kind === "single"
-            && (sharedAt(item, size).length > 0 || item.options.every(option => optionWidth(option, size) <= half))
-    }
     // How high the page is with options in this size and so high. Below the last card no distance is needed.
-    function pageHeight(size: real, height: real): real {
+    function pageHeight(size: real, height: real, filled: bool): real {
+        const gap = wideGutter * Theme.unit
         return page.seen().reduce((sum, item) => {
             if (item.kind === "integer")
                 return sum + (rangeFits(item) ? 130 : 138) * Theme.unit
             const lines = Math.ceil(widths.bold(item.text, asking) / page.inner)
-            const rows = sharedAt(item, size).length || Math.ceil(item.options.length / 2)
-            return sum + lines * widths.leading * asking + 50 * Theme.unit + (height + gutter) * rows
+            const rows = filled ? filledRows(item, size, gap).map(() => 1) : rowLines(item, size, columnsOf(item, size))
+            return sum + lines * widths.leading * asking + 50 * Theme.unit
+                + rows.reduce((all, lines) => all + Math.max(height, lines > 1 ? textHeight(lines, size) : 0) + gap, 0)
         }, -22 * Theme.unit)
     }
     // Whether the question of a number and what the number may be have room in one line, before its field.
@@ -71,35 +81,82 @@ QtObject {
         return widths.bold(item.text, asking) + widths.slack * widths.plain(item.range, Theme.size(32)) + 1.5 * Theme.gap
             <= page.inner - fieldWidth
     }
-    // How many options each row has if an odd number of them takes fewer rows so than in halves, which would leave a hole.
-    // The first rows have one more than the last, or the other way round.
-    function sharedAt(item: var, size: real): var {
-        const options = item.options ?? []
-        if (item.kind !== "single" || options.length % 2 === 0)
-            return []
-        const wide = options.map(option => optionWidth(option, size) + 84 * Theme.unit + gutter)
-        for (let rows = 1; rows < options.length / 2; rows++) {
-            const counts = Array.from({length: rows}, (_, row) => Math.floor(options.length / rows) + (row < options.length % rows ? 1 : 0))
-            const found = [counts, counts.slice().reverse()].find(ways => {
-                let end = 0
-                return ways.every(count => {
-                    end += count
-                    return wide.slice(end - count, end).reduce((sum, each) => sum + each, 0) <= page.inner + gutter
-                })
-            })
-            if (found !== undefined)
-                return found
-        }
-        return []
+    // In how many columns the options of a question stand, all as wide: in as many as leave each in one line, but in two
+    // rather than one if each has two lines there. The rows are as full as each other.
+    function columnsOf(item: var, size: real): int {
+        const all = item.options.length
+        if (page.alone && all <= 6)
+            return 1
+        const few = [6, 5, 4, 3, 2].find(columns => columns <= Math.min(all, most)
+            && item.options.every(option => optionWidth(option, size) <= wordsRoom(columns)))
+        if (few !== undefined)
+            return Math.ceil(all / Math.ceil(all / few))
+        const rows = rowLines(item, size, 2), usual = 62 * Theme.unit
+        return Math.max(...rows) <= 2 && rows.reduce((sum, lines) => sum + Math.max(usual, textHeight(lines, size)), 0) < all * usual ? 2 : 1
     }
-    // In how many rows an upright page's options stand, all as wide; 0 where one has no room.
-    function stackedRows(item: var, size: real): int {
-        if (item.kind !== "single")
-            return 0
-        const gap = 14 * Theme.unit, all = item.options.length
-        const widest = Math.max(...item.options.map(option => optionWidth(option, size))) + 104 * Theme.unit
-        const fit = Math.min(all, Math.floor((page.inner + gap) / (widest + gap)))
-        return fit < 1 ? 0 : Math.ceil(all / fit)
+    // How much width words have in so many columns.
+    function wordsRoom(columns: int): real {
+        return Math.floor((optionsWidth - (columns - 1) * (page.upright ? gutter : wideGutter * Theme.unit)) / columns) - around
+    }
+    // How many lines an option has there; many if a word of it has no room.
+    function optionLinesOf(option: var, size: real, columns: int): int {
+        const room = wordsRoom(columns), words = option.text.split(" ")
+        return optionWidth(option, size) <= room ? 1
+            : words.some(word => widths.plain(word, size) > 0.98 * room) ? 9 : widths.plainLines(option.text, size, room)
+    }
+    // How many lines each row of options has.
+    function rowLines(item: var, size: real, columns: int): var {
+        const rows = []
+        item.options.forEach((option, at) => {
+            const row = Math.floor(at / columns)
+            rows[row] = Math.max(rows[row] ?? 1, columns === 1 ? 1 : optionLinesOf(option, size, columns))
+        })
+        return rows
+    }
+    // How wide the options of a question are, row by row, and how many lines each row has.
+    function rows(item: var): var {
+        const size = optionSize, columns = columnsOf(item, size), equal = rowLines(item, size, columns)
+        if (lean) {
+            const filled = filledRows(item, size, gutter)
+            if (filled.length < equal.reduce((all, lines) => all + lines, 0))
+                return filled.map(widths => ({widths, lines: 1}))
+        }
+        const tile = Math.floor((optionsWidth - (columns - 1) * gutter) / columns)
+        return equal.map((lines, row) => ({widths: Array(Math.min(columns, item.options.length - row * columns)).fill(tile), lines}))
+    }
+    // As many options in each row as have room there, as wide as each other if they can be, and else as their words need.
+    // Each row ends where the others do.
+    function filledRows(item: var, size: real, gutter: real): var {
+        const rows = [], width = Math.floor(optionsWidth)
+        let end = Infinity
+        for (const option of item.options) {
+            const wish = Math.ceil(optionWidth(option, size)) + around
+            if (end + gutter + wish > width) {
+                rows.push([])
+                end = -gutter
+            }
+            rows[rows.length - 1].push(Math.min(wish, width))
+            end += gutter + wish
+        }
+        return rows.map(row => {
+            const part = (width - (row.length - 1) * gutter) / row.length, even = row.every(wish => wish <= part)
+            const spare = (width - row.reduce((sum, wish) => sum + wish + gutter, -gutter)) / row.length
+            let at = 0
+            return row.map(wish => {
+                const from = at
+                at += even ? part : wish + spare
+                return Math.floor(at) - Math.floor(from)
+            })
+        })
+    }
+    // How many lines all rows of options of the page have in this size.
+    function optionLines(size: real): int {
+        return page.items.filter(item => item.options !== undefined)
+            .reduce((sum, item) => sum + rowLines(item, size, columnsOf(item, size)).reduce((all, lines) => all + lines, 0), 0)
+    }
+    // How high an option of so many lines is at least.
+    function textHeight(lines: int, size: real): real {
+        return lines * widths.leading * size + 7 * Theme.unit
     }
     function optionWidth(option: var, size: real): real {
         return widths.slack * widths.plain(option.text, size)
