@@ -43,6 +43,17 @@ FocusScope {
         id: letters
         font { pixelSize: Theme.size(54); bold: true }
     }
+    WordWidths {
+        id: wordWidths
+    }
+    // The names of languages are as large as each other: as large as the longest allows, which is hardly wider than its
+    // button.
+    readonly property real named: {
+        const most = Theme.size(Theme.textSize > 1.15 ? 30 : upright ? 52 : 44)
+        const padded = way => (even ? longest(attract.ways, letters.font) + 48 * Theme.unit : letters.advanceWidth(way.start) + 88 * Theme.unit)
+        const shares = attract.ways.map(way => (padded(way) + 0.5 * Theme.gap) / wordWidths.bold(way.name, most))
+        return Math.max(Theme.size(30), Math.floor(most * Math.min(1, ...shares)))
+    }
     // A card was turned, in the middle of this item; the helper looks at it.
     signal looked(place: point)
     readonly property bool several: attract.ways.length > 1
@@ -81,9 +92,22 @@ FocusScope {
             anchors { horizontalCenter: start.horizontalCenter; top: start.bottom; topMargin: 0.4 * Theme.gap }
             visible: view.several
             text: way.modelData.name
-            font.pixelSize: Theme.textSize > 1.15 ? Theme.small : Theme.size(36)
+            font { pixelSize: view.named; bold: true }
             color: Theme.ink
         }
+    }
+    // A line in as large letters as let it stand in one. It takes the height of the largest in every language, so that
+    // nothing else moves when the language changes.
+    component Fitted: Line {
+        property real most
+        property real smallest
+        readonly property real fitting: Math.floor(0.985 * most * room / Math.max(1, wordWidths.plain(text, most)))
+        readonly property real size: Math.max(smallest, Math.min(most, fitting))
+        anchors.horizontalCenter: parent?.horizontalCenter
+        room: view.width - 4 * Theme.gap
+        font.pixelSize: size
+        lineHeight: fitting >= smallest ? most / size : 1
+        color: Theme.ink
     }
 
     Row {
@@ -183,7 +207,8 @@ FocusScope {
     Column {
         id: words
         anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: view.foot + (view.height - view.head - view.foot - height - cards.height - view.between) / 2 }
-        spacing: (view.ample ? 1.5 : 1) * Theme.gap
+        // Above a greeting the cards need the room.
+        spacing: (!view.ample ? 1 : view.height < 1.1 * view.width ? 0.75 : 1.5) * Theme.gap
 
         Line {
             anchors.horizontalCenter: parent.horizontalCenter
@@ -192,23 +217,19 @@ FocusScope {
             // Large words are large enough in one line, and the cards need the room.
             font { pixelSize: Math.min(Theme.size(92), 0.087 * view.width); bold: true }
         }
-        Line {
-            anchors.horizontalCenter: parent.horizontalCenter
-            room: view.width - 4 * Theme.gap
+        Fitted {
             visible: !view.accompanied
             text: view.attract.line
-            font.pixelSize: Theme.size(view.ample ? 50 : 44)
-            color: Theme.ink
+            most: Theme.size(view.ample ? 64 : 44)
+            smallest: Theme.size(view.ample ? 50 : 44)
         }
-        Line {
-            anchors.horizontalCenter: parent.horizontalCenter
+        Fitted {
             objectName: "promise"
             visible: text !== ""
-            room: view.width - 4 * Theme.gap
             bottomPadding: Theme.gap
             text: view.attract.promise
-            font.pixelSize: Theme.size(Theme.textSize > 1.15 ? 34 : 42)
-            color: Theme.ink
+            most: Theme.size(Theme.textSize > 1.15 ? 34 : view.ample ? 56 : view.accompanied ? 52 : 42)
+            smallest: Theme.size(Theme.textSize > 1.15 ? 34 : 42)
         }
         Grid {
             id: starts

@@ -35,6 +35,22 @@ Item {
     // A few words in a wide bubble are large, too.
     readonly property bool short: grows && !calls && !cheered && !tells && end === "" && whole !== "" && briefly.advanceWidth <= words.width
     readonly property real tag: speaker === "" ? 0 : name.height - 0.3 * Theme.gap
+    // What calls stands in one line or two even ones, in as large letters as fit, and its bubble is only as wide as that:
+    // it keeps away from the edge of the window.
+    readonly property var called: calls ? call(whole, Math.min(width, 560 * Theme.unit * Theme.textSize) - 2 * Theme.gap) : null
+    function call(text: string, room: real): var {
+        const parts = text.split(" ")
+        const found = [64, 60, 56, 53, 50].map(letters => {
+            const size = Theme.size(letters), wide = parts => 1.015 * wordWidths.plain(parts.join(" "), size) + 2
+            const line = wide(parts)
+            return {size: size, wide: line <= room ? line
+                : Math.min(...parts.map((_, at) => Math.max(wide(parts.slice(0, at)), wide(parts.slice(at)))))}
+        }).find(tried => tried.wide <= room)
+        return found ?? {size: Theme.size(50), wide: room}
+    }
+    WordWidths {
+        id: wordWidths
+    }
     // How much of its height is free above it.
     readonly property real free: sentence === "" ? height : box.y
     readonly property real room: height - tail - tag - told.high - (hasSpeaker && !tells ? 3 : 2) * Theme.gap
@@ -99,7 +115,7 @@ Item {
         id: usual
         text: words.text
         font.pixelSize: bubble.triumphed ? bubble.triumph : bubble.cheered ? bubble.cheer : bubble.short ? briefly.font.pixelSize : bubble.end !== "" ? bubble.basis
-            : Theme.size(bubble.calls ? 50 : bubble.grows ? (large.high <= bubble.room ? 38 : 34) : 36)
+            : bubble.called !== null ? bubble.called.size : Theme.size(bubble.grows ? (large.high <= bubble.room ? 38 : 34) : 36)
         font.bold: bubble.cheered
     }
     Measure {
@@ -133,7 +149,8 @@ Item {
     }
     Rectangle {
         id: box
-        anchors { left: parent.left; right: parent.right; bottom: parent.bottom; bottomMargin: bubble.tail }
+        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: bubble.tail }
+        width: bubble.called === null ? bubble.width : bubble.called.wide + 2 * Theme.gap
         height: words.high + ending.high + bubble.tag + told.high + 2 * Theme.gap
         radius: Theme.radius
         color: Theme.white

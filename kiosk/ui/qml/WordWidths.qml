@@ -1,5 +1,5 @@
-// How wide words are and how many lines they take, before they are laid out: the one place where forms and the debrief
-// measure words.
+// How wide words are and how many lines they take, before they are laid out: the one place where pages measure
+// words.
 import QtQuick
 import "."
 
