@@ -488,7 +488,7 @@ def about_you(booth: Booth, qtbot: QtBot, width: int, height: int) -> list[list[
 
 
 @pytest.mark.parametrize("language", ["en", "es", "it"])
-@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1366, 768), (1080, 1920)])
+@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1280, 800), (1366, 768), (1080, 1920)])
 def test_the_options_of_all_questions_stand_in_the_same_two_columns(
     make_booth: MakeBooth, qtbot: QtBot, width: int, height: int, language: str
 ) -> None:

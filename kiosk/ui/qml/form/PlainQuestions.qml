@@ -19,7 +19,7 @@ QtObject {
     // How high options are at least, and how far they are apart.
     readonly property real optionHeight: columns?.height
         ?? (page.tight || (page.largeText && !page.large) || page.items.length > 3 ? 62 : page.airy ? 84 : 76) * Theme.unit
-    readonly property real gutter: (columns !== null ? wideGutter : page.easy ? 20 : page.airy ? 18 : page.tight || page.largeText ? 8 : 12) * Theme.unit
+    readonly property real gutter: (columns !== null ? wideGutter : page.easy ? 20 : page.airy ? 18 : page.large ? 14 : page.tight || page.largeText ? 8 : 12) * Theme.unit
     readonly property real wideGutter: 14
     // How large the ring before an option's words is, and what there is before it, between both, and at the end.
     readonly property real ring: (page.easy ? 44 : 34) * Theme.unit
@@ -32,8 +32,8 @@ QtObject {
     // In how many columns options stand at most. Those of several questions stand in the same two, where there is height for that.
     readonly property int most: !page.tight && page.items.length <= 3 && page.items.filter(item => item.options !== undefined).length > 1 ? 2 : 6
     // Whether the page lacks the height for as many rows as that takes.
-    readonly property bool lean: page.items.length > 3
-        || !page.upright && !page.alone && (page.tight || page.largeText || page.calm && columns?.filled !== false)
+    readonly property bool lean: columns?.filled ?? (page.items.length > 3
+        || !page.upright && !page.alone && (page.tight || page.largeText || page.calm) && !(equalHeight() <= page.free))
     // How high the field of a number is, and how much width it takes beside its question, with its buttons.
     readonly property real fieldHeight: page.easy ? 112 * Theme.unit : 1.37 * Theme.body + 32 * Theme.unit
     readonly property real fieldWidth: (page.easy ? 492 : 470) * Theme.unit
@@ -75,6 +75,15 @@ QtObject {
             return sum + lines * widths.leading * asking + 50 * Theme.unit
                 + rows.reduce((all, lines) => all + Math.max(height, lines > 1 ? textHeight(lines, size) : 0) + gap, 0)
         }, -22 * Theme.unit)
+    }
+    // How high a wide page is without large options if those of each question are as wide as each other; NaN with other
+    // kinds of items.
+    function equalHeight(): real {
+        return page.seen().reduce((sum, item) => {
+            const rows = item.kind === "integer" ? [0] : item.kind === "single" ? rowLines(item, optionSize, columnsOf(item, optionSize)) : [NaN]
+            return sum + page.gap + 42 * Theme.unit + widths.lines(item.text, Theme.body, page.inner) * widths.leading * Theme.body
+                + rows.reduce((all, lines) => all + gutter + (lines === 0 ? fieldHeight : lines > 1 ? textHeight(lines, optionSize) : lines * optionHeight), -gutter)
+        }, 0)
     }
     // Whether the question of a number and what the number may be have room in one line, before its field.
     function rangeFits(item: var): bool {
@@ -156,7 +165,7 @@ QtObject {
     }
     // How high an option of so many lines is at least.
     function textHeight(lines: int, size: real): real {
-        return lines * widths.leading * size + 7 * Theme.unit
+        return lines * Math.ceil(widths.leading * size) + 6 * Theme.unit
     }
     function optionWidth(option: var, size: real): real {
         return widths.slack * widths.plain(option.text, size)
