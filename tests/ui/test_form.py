@@ -16,7 +16,7 @@ from kiosk.config import ASSETS
 from kiosk.experiment.items import NOT_APPLICABLE, Response
 from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.ui.screens.questionnaire import kept_together
-from kiosk.ui.simulated_visitor import UiDriver, find_item, item_centre
+from kiosk.ui.simulated_visitor import UiDriver, find_item, item_centre, lay_out
 from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.looking import items, place, texts
@@ -504,6 +504,20 @@ def test_the_options_of_all_questions_stand_in_the_same_two_columns(
         for left, right in zip(options[::2], options[1::2], strict=False):
             assert (left.y(), left.height()) == (right.y(), right.height())
         assert max(option.height() for option in options) < 1.6 * min(option.height() for option in options)
+
+
+@pytest.mark.parametrize("language", ["en", "es", "it"])
+def test_options_are_lower_where_that_keeps_all_that_is_missing_in_sight(
+    make_booth: MakeBooth, qtbot: QtBot, language: str
+) -> None:
+    booth = make_booth()
+    booth.app.screens.set_language(CATALOGUES[language])
+    (usual, *_), _ = about_you(booth, qtbot, 1280, 800)
+    before = usual.height()
+    booth.app.screens.form.show_missing(("age", "gender", "robots"))
+    lay_out(booth.app.window)
+    assert not booth.sees("more")
+    assert 68 * 2 / 3 <= usual.height() < before
 
 
 def test_what_a_finger_meets_on_an_upright_page_is_as_high_as_the_way_on(make_booth: MakeBooth, qtbot: QtBot) -> None:

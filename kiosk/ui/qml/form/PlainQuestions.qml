@@ -16,9 +16,12 @@ QtObject {
     // How large options are. Those of an upright page are as large as leaves them as many lines as the usual size does.
     readonly property real optionSize: columns?.size ?? (page.alone ? Theme.body : !page.airy ? Theme.reading
         : (page.easy ? [38, 36].map(Theme.size).find(size => optionLines(size) === optionLines(Theme.size(34))) : null) ?? Theme.size(34))
+    readonly property var heights: [84, 82, 80, 78, 77, 76, 75, 74, 72, 70, 68].map(height => height * Theme.unit)
+    // How much height can be filled. Small letters are set on whole pixels, which makes them higher.
+    readonly property real sure: page.free - (Theme.unit < 0.9 ? 22 : 6) * Theme.unit
     // How high options are at least, and how far they are apart.
-    readonly property real optionHeight: columns?.height
-        ?? (page.tight || (page.largeText && !page.large) || page.items.length > 3 ? 62 : page.airy ? 84 : 76) * Theme.unit
+    readonly property real optionHeight: columns !== null ? lowered()
+        : (page.tight || (page.largeText && !page.large) || page.items.length > 3 ? 62 : page.airy ? 84 : 76) * Theme.unit
     readonly property real gutter: (columns !== null ? wideGutter : page.easy ? 20 : page.airy ? 18 : page.large ? 14 : page.tight || page.largeText ? 8 : 12) * Theme.unit
     readonly property real wideGutter: 14
     // How large the ring before an option's words is, and what there is before it, between both, and at the end.
@@ -51,18 +54,22 @@ QtObject {
     // The largest letters, and with them the highest options, with which all questions fit: in columns, or else in rows that
     // are filled.
     function columned(): var {
-        const heights = [84, 82, 80, 78, 77, 76, 75, 74, 72, 70, 68].map(height => height * Theme.unit)
         if (!page.items.every(item => item.kind === "integer" || item.kind === "single"))
             return null
         for (const filled of [false, true])
             for (const size of [34, 33, 32, 31, 30, 29].map(Theme.size)) {
-                // Small letters are set on whole pixels, which makes them higher.
-                const room = page.free - (Theme.unit < 0.9 ? 22 : 6) * Theme.unit
-                const height = heights.find(height => pageHeight(size, height, filled) <= room)
+                const height = heights.find(height => pageHeight(size, height, filled) <= sure)
                 if (height !== undefined)
                     return {size, height, filled}
             }
         return null
+    }
+    // The height that options have then. Words that something is missing take some of it, where that leaves all in sight.
+    function lowered(): real {
+        const missing = page.items.filter(item => page.form.missing.includes(item.id))
+        const words = missing.reduce((sum, item) => sum + (item.kind === "integer" ? 0.25 : 1) * (widths.leading * Theme.small + 12 * Theme.unit), 0)
+        return heights.find(height => height <= columns.height && pageHeight(columns.size, height, columns.filled) + words <= sure)
+            ?? columns.height
     }
     // How high the page is with options in this size and so high. Below the last card no distance is needed.
     function pageHeight(size: real, height: real, filled: bool): real {
