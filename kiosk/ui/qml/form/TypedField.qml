@@ -111,7 +111,7 @@ TextField {
         textFormat: Text.PlainText
         text: field.hint
         horizontalAlignment: field.digits ? Text.AlignHCenter : undefined
-        font.pixelSize: field.digits ? Math.min(Theme.size(Theme.upright ? 40 : 34), 0.4 * field.height) : Theme.body
+        font.pixelSize: field.digits ? Math.min(Theme.size(Theme.upright ? 40 : 34), 0.47 * field.height) : Theme.body
         fontSizeMode: Text.HorizontalFit
         minimumPixelSize: Theme.size(24)
         color: field.digits ? Theme.ink : Theme.faintInk
