@@ -14,6 +14,7 @@ from typing import Any
 
 import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, QRectF
+from PySide6.QtGui import QFontMetricsF
 from PySide6.QtQml import qmlEngine
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 from PySide6.QtWidgets import QApplication
@@ -1036,7 +1037,41 @@ def test_a_card_over_everything_lies_in_the_window_with_all_that_stands_on_it(
                 assert ground.contains(whole(card)), told
                 assert all(whole(card).contains(painted(text)) for text in texts(card)), told
                 assert all(whole(card).contains(whole(button)) for button in controls(card)), told
+                if name != "pause":
+                    # The question comes first, and nothing is larger.
+                    asked, *others = sorted(texts(card), key=lambda text: whole(text).top())
+                    assert asked.property("text") == plan.catalogue.text(f"{name.replace(' ', '-')}-title"), told
+                    largest = asked.property("font").pixelSize()
+                    assert all(largest > text.property("font").pixelSize() for text in others), told
                 uncover()
+
+
+@pytest.mark.parametrize("layout", LAYOUTS[:4], ids=str)
+def test_the_frame_of_a_code_is_as_far_from_its_words_above_as_below(
+    whole_window: tuple[Window, StudyConfig], layout: Layout
+) -> None:
+    window, study = whole_window
+    kiosk, shown = window.screens.kiosk, window.shown
+    shown.resize(layout.width, layout.height)
+    QCoreApplication.processEvents()
+    window.screens.avatar.appear(present=True)
+    window.screens.set_language(study.plans[0].catalogue)
+    kiosk.begin(SHIPPED, "en", study.plans[0].settings.consent)
+    kiosk.give_code("WMWMW-MWMWM")
+    kiosk.show("practice")
+    kiosk.ask("stop")
+    lay_out(shown)
+    code = find_item(shown.contentItem(), "noted")
+    assert code is not None
+    frame = whole(code.parentItem().parentItem())
+    told = min(texts(code.parentItem()), key=lambda text: whole(text).top())
+    first, last = (QFontMetricsF(text.property("font")) for text in (told, code))
+    above = whole(told).top() + first.ascent() - first.capHeight() - frame.top()
+    below = frame.bottom() - whole(code).top() - last.ascent()
+    least = 28 * min(layout.width, layout.height) / 1080
+    assert above == pytest.approx(below, abs=3)
+    assert min(above, below) >= least
+    kiosk.ask("")
 
 
 @pytest.mark.parametrize(("width", "height"), SIZES)

@@ -49,8 +49,8 @@ FocusScope {
     // What there is to choose: the name of each, its words, and whether it is quiet. The first has the keyboard.
     property var choices: []
     signal chosen(string name)
-    // How long it stays, in ms, or 0 where that is not known. The seconds that are left, with their unit, then stand in
-    // place of the drawing; the last one has a word of its own.
+    // How long it stays, in ms, or 0 where that is not known. The seconds that are left, with their unit, then stand below
+    // the line, and there is no drawing; the last one has a word of its own.
     property int lasts: 0
     property string second: ""
     property string seconds: ""
@@ -137,13 +137,20 @@ FocusScope {
                     Lying { slot: (calm.large ? 160 : 120) * Theme.unit }
                 }
             }
-            CalmSign {
+            Rectangle {
                 anchors.horizontalCenter: parent.horizontalCenter
-                width: (calm.lasts > 0 ? (calm.roomy ? 410 : calm.speaker > 0 ? 230 : 220) : calm.roomy ? 140 : 96) * Theme.unit
-                sign: calm.sign
-                lasts: calm.lasts
-                second: calm.second
-                seconds: calm.seconds
+                visible: calm.sign !== "" && calm.lasts === 0
+                width: (calm.roomy ? 140 : 96) * Theme.unit
+                height: width
+                radius: width / 2
+                color: Theme.sand
+                Drawing {
+                    anchors.centerIn: parent
+                    scale: parent.width / 43
+                    path: calm.sign
+                    ink: Theme.ink
+                    thick: 2.2
+                }
             }
             Balanced {
                 width: parent.width
@@ -171,6 +178,21 @@ FocusScope {
                 font.pixelSize: calm.lineSize
                 color: Theme.ink
                 horizontalAlignment: Text.AlignHCenter
+            }
+            Item {
+                visible: calm.lasts > 0
+                width: parent.width
+                // With the ring around it.
+                height: count.height + 28 * Theme.unit
+                // Smaller than the question.
+                CalmCount {
+                    id: count
+                    anchors.centerIn: parent
+                    width: (calm.roomy ? 200 : 150) * Theme.unit
+                    lasts: calm.lasts
+                    second: calm.second
+                    seconds: calm.seconds
+                }
             }
             CalmCode {
                 anchors.horizontalCenter: parent.horizontalCenter

@@ -16,7 +16,7 @@ Flow {
     property real above: 0
     signal chosen(string name)
 
-    // All there is to do, perhaps in a hurry, is as wide as the card.
+    // All there is to do, perhaps in a hurry, is wide: as wide as an upright page, as the way on is there.
     readonly property bool alone: choices.length === 1
     // Two are as wide as each other: far apart, or as wide as the card where they do not fit beside each other. The first is
     // where the way on is on a page.
@@ -51,7 +51,7 @@ Flow {
             required property var modelData
             objectName: modelData.name
             most: flow.most
-            width: flow.alone || flow.two && !flow.pair ? most : flow.pair ? Math.floor(flow.half) : Math.min(wish, most)
+            width: flow.alone && !flow.roomy ? Math.min(most, Math.max(wish, 720 * Theme.unit)) : flow.alone || flow.two && !flow.pair ? most : flow.pair ? Math.floor(flow.half) : Math.min(wish, most)
             font.pixelSize: Theme.size(flow.alone ? (flow.roomy ? 56 : 50) : flow.roomy ? 48 : flow.large && Theme.textSize <= 1.15 ? 44 : 36)
             verticalPadding: (flow.alone ? (flow.roomy ? 42 : 36) : flow.roomy ? 36 : 30) * Theme.unit
             words: modelData.words

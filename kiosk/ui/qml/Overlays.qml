@@ -33,10 +33,10 @@ Item {
         sourceComponent: CalmCard {
             focus: true
             windowLayout: overlays.windowLayout
-            least: roomy ? Math.min(1180 * Theme.unit, 0.83 * speaker) : speaker > 0 && overlays.windowLayout.board !== null ? 730 * Theme.unit : 0
+            least: roomy ? Math.min(1040 * Theme.unit, 0.83 * speaker) : speaker > 0 && overlays.windowLayout.board !== null ? 730 * Theme.unit : 0
             sign: "M1.5 12 C6 3.5 18 3.5 22.5 12 C18 20.5 6 20.5 1.5 12 Z M12 8.5 A3.5 3.5 0 0 1 12 15.5 A3.5 3.5 0 0 1 12 8.5"
             title: overlays.words["still-there-title"]
-            titleSize: roomy ? Theme.size(88) : beside > 0 && Theme.textSize <= 1 ? Theme.size(76) : Theme.figure
+            titleSize: roomy ? Theme.size(88) : beside > 0 && Theme.textSize <= 1.15 ? Theme.size(84) : Theme.figure
             line: overlays.words["still-there-line"]
             lineSize: Theme.size(roomy ? 46 : large ? 42 : 36)
             lasts: overlays.timed ? overlays.kiosk.answerMs : 0
@@ -51,14 +51,12 @@ Item {
         sourceComponent: CalmCard {
             focus: true
             windowLayout: overlays.windowLayout
-            // Above a face it reaches up to the distance that a page has from the edge.
-            least: roomy ? speaker - 5 * Theme.gap : speaker > 0 && overlays.windowLayout.board !== null ? 900 * Theme.unit : 0
-            // A door, and the way out of it.
-            sign: "M13 4 H5 V20 H13 M10 12 H20 M16 8 L20 12 L16 16"
+            // Above a face it reaches up to the distance that a page has from the edge, where it has so much to say.
+            least: roomy ? (code !== "" ? speaker - 5 * Theme.gap : 900 * Theme.unit) : speaker > 0 && overlays.windowLayout.board !== null ? 900 * Theme.unit : 0
             title: overlays.words["stop-title"]
-            titleSize: roomy ? Theme.size(80) : Theme.figure
+            titleSize: roomy ? Theme.size(96) : large && Theme.textSize <= 1.15 ? Theme.size(80) : Theme.figure
             line: overlays.kiosk.stopLine
-            lineSize: roomy ? Theme.size(46) : large ? Theme.size(40) : Theme.body
+            lineSize: roomy ? Theme.size(50) : large ? Theme.size(44) : Theme.body
             code: overlays.kiosk.stopCode
             codeTitle: overlays.words["stop-code"]
             // Neither is the quieter one: to stop is as easy to see as to go on.

@@ -1,5 +1,4 @@
-// What a calm card shows above its title: a drawing, or the seconds for which the card stays. A ring around these empties in
-// small steps.
+// The seconds for which a calm card stays, with their unit. A ring around them empties in small steps.
 import QtQuick
 import QtQuick.Shapes
 import "."
@@ -7,8 +6,6 @@ import "."
 Rectangle {
     id: badge
 
-    // The lines of the drawing, on a square of 24; empty for none.
-    required property string sign
     // How long the card stays, in ms; 0 where that is not known.
     required property int lasts
     // The unit of the last of the seconds, and of those before.
@@ -21,7 +18,7 @@ Rectangle {
     // Where nothing moves, the ring stays whole.
     readonly property int stepsLeft: Theme.motion === 0 ? steps : Math.ceil(steps * msLeft / Math.max(1, lasts))
 
-    visible: sign !== "" || lasts > 0
+    visible: lasts > 0
     height: width
     radius: width / 2
     color: Theme.sand
@@ -46,7 +43,6 @@ Rectangle {
         objectName: "time-left"
         readonly property real far: badge.width / 2 + 10 * Theme.unit
         anchors.centerIn: parent
-        visible: badge.lasts > 0
         width: 2 * far
         height: 2 * far
         antialiasing: true
@@ -69,10 +65,9 @@ Rectangle {
     PlainText {
         objectName: "seconds-left"
         anchors { centerIn: parent; verticalCenterOffset: -0.1 * badge.width }
-        visible: badge.lasts > 0
         width: 0.8 * badge.width
         text: badge.secondsLeft
-        font { pixelSize: 0.46 * badge.width; bold: true }
+        font { pixelSize: 0.42 * badge.width; bold: true }
         fontSizeMode: Text.HorizontalFit
         minimumPixelSize: Theme.body
         horizontalAlignment: Text.AlignHCenter
@@ -81,21 +76,12 @@ Rectangle {
     PlainText {
         objectName: "seconds-unit"
         anchors { centerIn: parent; verticalCenterOffset: 0.26 * badge.width }
-        visible: badge.lasts > 0
-        width: 0.72 * badge.width
+        width: 0.8 * badge.width
         text: badge.secondsLeft === 1 ? badge.second : badge.seconds
         font.pixelSize: Math.max(24 * Theme.unit, 0.15 * badge.width)
         fontSizeMode: Text.HorizontalFit
         minimumPixelSize: 24 * Theme.unit
         horizontalAlignment: Text.AlignHCenter
         Accessible.ignored: true
-    }
-    Drawing {
-        anchors.centerIn: parent
-        visible: badge.lasts === 0
-        scale: badge.width / 43
-        path: badge.sign
-        ink: Theme.ink
-        thick: 2.2
     }
 }
