@@ -206,7 +206,14 @@ def test_pictures_of_the_result_stand_in_the_middle_of_their_tiles_and_the_page_
         tile = picture.parentItem()
         off = bounds(picture).center() - bounds(tile).center()
         assert max(abs(off.x()), abs(off.y())) <= 1
-    lowest, board = bounds(pictures[-1].parentItem().childItems()[0]).bottom(), texts(booth)["Pairs"]
+        # The frame around a picture is thin.
+        assert bounds(picture).width() >= 0.9 * bounds(tile.childItems()[0]).width()
+    written = texts(booth)
+    unit = min(width, height) / 1080
+    title, label = (written[words].property("font").pixelSize() for words in ("All pairs found!", "Pairs"))
+    assert title == booth.item("page-title").property("font").pixelSize() >= 84 * unit
+    assert label >= 36 * unit
+    lowest, board = bounds(pictures[-1].parentItem().childItems()[0]).bottom(), written["Pairs"]
     while not board.inherits("QQuickRectangle"):
         board = board.parentItem()
     between = bounds(board).top() - lowest

@@ -492,15 +492,16 @@ def test_title_and_ways_stand_at_the_same_places_on_all_pages(
 ) -> None:
     ground = kiosk[0].shown.contentItem()
     titles, back, on = set(), set(), set()
+    sizes: dict[str, set[int]] = {}
     pages_seen = []
     for moment in shown_in(kiosk, layout, FRAMED):
         pages_seen.append(moment)
         title, leave = find_item(ground, "page-title"), find_item(ground, "back")
         assert title is not None
         assert leave is not None
-        # The word of thanks is larger.
-        size = None if moment == "thanks" else title.property("font").pixelSize()
-        titles.add((round(whole(title).left()), round(whole(title).top()), size))
+        size = title.property("font").pixelSize()
+        sizes.setdefault("high" if moment in {"result", "thanks"} else "usual", set()).add(size)
+        titles.add((round(whole(title).left()), round(whole(title).top())))
         # A page on which the helper says something is lower where the sentence stands below it.
         speaks = layout.robot and moment in SPEAKING
         back.add((round(whole(leave).left()), None if speaks else round(whole(leave).bottom())))
@@ -509,8 +510,10 @@ def test_title_and_ways_stand_at_the_same_places_on_all_pages(
             # The two answers to a consent are higher, and grow both ways.
             on.add((round(whole(go).right()), None if speaks else round(whole(go).center().y())))
     assert sorted(pages_seen) == sorted(FRAMED)
-    assert len({title[:2] for title in titles}) == len({left for left, _ in back}) == 1
-    assert len({size for *_, size in titles} - {None}) == 1
+    assert len(titles) == len({left for left, _ in back}) == 1
+    # What is found and the thanks are the heights of a visit.
+    assert {height: len(each) for height, each in sizes.items()} == {"usual": 1, "high": 1}
+    assert min(sizes["high"]) > max(sizes["usual"])
     assert len({bottom for _, bottom in back} - {None}) == 1
     assert len({right for right, _ in on}) == 1
     assert len({middle for _, middle in on} - {None}) == 1

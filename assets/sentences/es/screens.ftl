@@ -118,7 +118,7 @@ game-open-card = { $card }, fila { $row }, columna { $column }
 
 ## Result
 
-result-title = ¡Has encontrado todas las parejas!
+result-title = ¡Todas las parejas!
 result-moves =
     { $moves ->
         [one] en 1 jugada

@@ -122,7 +122,7 @@ game-open-card = { $card }, riga { $row }, colonna { $column }
 
 ## Result
 
-result-title = Hai trovato tutte le coppie!
+result-title = Tutte le coppie trovate!
 result-moves =
     { $moves ->
         [one] in 1 mossa

@@ -10,6 +10,7 @@ FocusScope {
     required property KioskScreen kiosk
     required property var words
     property string title: ""
+    property real titleSize: Theme.pageTitle
     // What the way on says; see WayOn.
     property alias label: ways.label
     property alias quiet: ways.quiet
@@ -93,7 +94,7 @@ FocusScope {
         visible: text !== ""
         text: frame.title
         horizontalAlignment: Text.AlignLeft
-        font { pixelSize: Theme.pageTitle; bold: true }
+        font { pixelSize: frame.titleSize; bold: true }
         wrapMode: Text.Wrap
         color: Theme.ink
     }

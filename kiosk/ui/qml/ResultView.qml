@@ -26,7 +26,9 @@ PageFrame {
     readonly property bool roomy: width > height && Theme.textSize <= 1.15
     // What stands on the page is as far from its title and its way on as its parts are from each other.
     readonly property real spaces: lined ? 2 : count > 0 ? 1 : 0
-    readonly property real air: Math.max(Theme.gap, Math.min(3 * Theme.gap, (room + 2 * Theme.gap - parts.solid) / (spaces + 2)))
+    readonly property real air: Math.max(Theme.gap, Math.min(3 * Theme.gap, (room + Theme.gap - parts.solid - (lined ? led : -Theme.gap)) / (spaces + (lined ? 1 : 2))))
+    // Where the line begins: it belongs to the title.
+    readonly property real led: -0.6 * Theme.gap
     // Stands up when the screen comes, one pair after another.
     property real shown: visible ? 1 : 0
     Behavior on shown { enabled: view.visible; NumberAnimation { duration: 5 * Theme.motion; easing.type: Easing.OutQuad } }
@@ -78,12 +80,19 @@ PageFrame {
             text: figure.label
             horizontalAlignment: Text.AlignHCenter
             wrapMode: Text.Wrap
-            font.pixelSize: Theme.textSize <= 1.15 ? Theme.reading : Theme.small
-            color: Theme.faintInk
+            font.pixelSize: Theme.size(Theme.textSize <= 1.15 ? 36 : 28)
+            color: Theme.ink
             Accessible.role: Accessible.StaticText
             Accessible.name: text + ": " + figure.spoken
         }
     }
+
+    // As large as the thanks, where it has one line then.
+    WordWidths {
+        id: wordWidths
+    }
+    readonly property real titled: wordWidths.slack * wordWidths.bold(title, Theme.highTitle)
+    titleSize: titled <= column - cornered ? Theme.highTitle : Math.max(Theme.pageTitle, Math.floor(Theme.highTitle * (column - cornered) / titled))
 
     title: words["result-title"]
     label: words["result-continue"]
@@ -94,7 +103,7 @@ PageFrame {
         id: parts
         // How high its parts are, without what is between them.
         readonly property real solid: (view.lined ? line.implicitHeight : 0) + (shelf.visible ? shelf.height : 0) + board.height
-        y: view.air - Theme.gap
+        y: view.lined ? view.led : view.air - Theme.gap
         width: parent?.width ?? 0
         spacing: view.air
 
@@ -103,10 +112,10 @@ PageFrame {
             width: parent.width
             visible: view.lined
             text: view.words["result-line"]
-            font.pixelSize: Theme.size(36)
+            font.pixelSize: Theme.size(40)
             horizontalAlignment: Text.AlignLeft
             wrapMode: Text.Wrap
-            color: Theme.faintInk
+            color: Theme.ink
         }
         Item {
             id: shelf
@@ -135,7 +144,7 @@ PageFrame {
                     scale: 0.7 + 0.3 * come
                     Rectangle {
                         anchors { fill: parent; margins: parent.width * 0.04 }
-                        radius: width * 0.16
+                        radius: width * 0.14
                         color: Theme.leaf
                     }
                     // Two cards, one on the other: of the lower one, which lies askew, only the corners are seen.
@@ -144,14 +153,14 @@ PageFrame {
                         width: 0.95 * picture.width
                         height: width
                         radius: 0.11 * picture.width
-                        rotation: -7
+                        rotation: -6
                         color: Theme.white
                         border { color: Theme.slot; width: 2 * Theme.unit }
                     }
                     Image {
                         id: picture
                         anchors.centerIn: parent
-                        width: Math.floor(pair.width * 0.76)
+                        width: Math.floor(pair.width * 0.85)
                         height: width
                         asynchronous: view.prepares
                         source: Qt.resolvedUrl(pair.modelData)

@@ -27,8 +27,12 @@ PageFrame {
     readonly property real free: room + Theme.gap - parting.height
     // With room for the cards' slant.
     readonly property real slot: Math.max(0, Math.min(312 * Theme.unit, column / (overlap * (first - 1) + 1.06), free / (lines > 1 ? 2.3 : 1.2)))
-    // The first and the last card of full rows stand at the edges of the page, where little is missing.
-    readonly property real wish: first > 1 ? (column - 1.04 * slot) / (first - 1) : 0
+    // The first and the last card of full rows reach the edges of the page with the outermost point of their round corners,
+    // where little is missing.
+    readonly property real slant: (first - 1) * Math.PI / 180
+    readonly property real slanted: Math.cos(slant) + Math.sin(slant)
+    readonly property real reach: 0.481 * slanted - 0.115 * (slanted - 1)
+    readonly property real wish: first > 1 ? (column - 2 * reach * slot) / (first - 1) : 0
     readonly property real pitch: wish < 1.2 * overlap * slot ? wish : overlap * slot
     // Rows are as far apart as columns, where there is the height.
     readonly property real drop: Math.max(1.07 * slot, Math.min(pitch, free - 1.2 * slot))
@@ -48,7 +52,7 @@ PageFrame {
         width: parent?.width ?? 0
         text: view.words["thanks-title"]
         horizontalAlignment: Text.AlignLeft
-        font { pixelSize: Theme.size(90); bold: true }
+        font { pixelSize: Theme.highTitle; bold: true }
         wrapMode: Text.Wrap
     }
     Item {

@@ -56,6 +56,8 @@ QtObject {
 
     readonly property real title: size(76)
     readonly property real pageTitle: size(60)
+    // What is found and the thanks are the heights of a visit.
+    readonly property real highTitle: size(84)
     readonly property real figure: size(64)
     readonly property real heading: size(46)
     readonly property real body: size(32)
