@@ -212,6 +212,8 @@ class ShowItems:
     """Those of the items that are not to be seen for now."""
     title: Mapping[str, str] | None = None
     """The title of their questionnaire in its languages, if it has one."""
+    alike: tuple[tuple[Item, ...], ...] = ()
+    """All pages of the form that ask on the same scale as this one: they are laid out alike."""
 
 
 @dataclass(frozen=True)

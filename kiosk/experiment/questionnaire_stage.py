@@ -10,7 +10,7 @@ from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Mood, OutcomeBuilder
 from kiosk.experiment.events import WorldEvent
 from kiosk.experiment.item_responses import effective_answer
-from kiosk.experiment.items import Question, Response, TextPage, in_language
+from kiosk.experiment.items import Likert, Question, Response, TextPage, in_language
 from kiosk.experiment.page_stages import StageHandler
 from kiosk.experiment.questionnaire import Item, ItemOrder, Questionnaire
 from kiosk.experiment.relevance import hidden_items
@@ -44,6 +44,24 @@ def item_pages(questionnaire: Questionnaire, chance: Random) -> Iterator[ItemPag
 def _page_of(questionnaire: Questionnaire, items: list[Item]) -> Iterator[ItemPage]:
     if items:
         yield ItemPage(questionnaire.id, tuple(items), questionnaire.title)
+
+
+def pages_alike(pages: Sequence[tuple[Item, ...]], page: tuple[Item, ...]) -> tuple[tuple[Item, ...], ...]:
+    """Return the pages that ask on the same scale as this one.
+
+    There are none if the page has one item only, or items that share no scale.
+    """
+    scale = _scale(page)
+    return tuple(other for other in pages if _scale(other) == scale) if scale is not None else ()
+
+
+def _scale(page: tuple[Item, ...]) -> tuple[object, ...] | None:
+    """Return the one scale of a page of several ratings."""
+    ratings = [item for item in page if isinstance(item, Likert)]
+    scales = [(item.points, item.lowest, item.highest) for item in ratings]
+    if not len(scales) == len(page) > 1 or any(scale != scales[0] for scale in scales):
+        return None
+    return (*scales[0], any(item.not_applicable for item in ratings))
 
 
 def _ordered(questionnaire: Questionnaire, chance: Random) -> list[Item]:
@@ -172,7 +190,8 @@ class QuestionnaireStage(StageHandler):
             happened.QuestionnairePageShown(at_ms=outcome.at_ms, questionnaire=self._page.questionnaire, items=names)
         )
         page, number, of = self._page, self._number + 1, len(self._pages)
-        outcome.effect(do.ShowItems(page.items, number, of, self._rates, self._hidden_here, page.title))
+        alike = pages_alike([each.items for each in self._pages], page.items)
+        outcome.effect(do.ShowItems(page.items, number, of, self._rates, self._hidden_here, page.title, alike))
         given = ((item.id, self._answer(item)) for item in self._page.items)
         outcome.effect(*(do.ShowAnswer(item, value) for item, value in given if value is not None))
 

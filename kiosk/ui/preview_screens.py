@@ -11,7 +11,7 @@ from kiosk.experiment import effects as do
 from kiosk.experiment.effects import Effect
 from kiosk.experiment.items import Response
 from kiosk.experiment.questionnaire import Item, Questionnaire
-from kiosk.experiment.questionnaire_stage import item_pages
+from kiosk.experiment.questionnaire_stage import item_pages, pages_alike
 from kiosk.experiment.relevance import hidden_items
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.game import CARDS_IN_A_PAIR
@@ -74,10 +74,11 @@ class FormPage:
     number: int
     of: int
     rates: bool
+    alike: tuple[tuple[Item, ...], ...]
 
     def effect(self, hidden: tuple[str, ...] = ()) -> Effect:
         """Return what shows it."""
-        return do.ShowItems(self.items, self.number, self.of, self.rates, hidden, self.asked.title)
+        return do.ShowItems(self.items, self.number, self.of, self.rates, hidden, self.asked.title, self.alike)
 
     def hidden(self, given: Mapping[str, Response]) -> tuple[str, ...]:
         """Return the items that their conditions hide after these answers."""
@@ -98,4 +99,5 @@ def form_pages(plan: SessionConfig) -> dict[str, FormPage]:
 def _pages(name: str, asked: tuple[Questionnaire, ...], *, rates: bool) -> Iterator[tuple[str, FormPage]]:
     pages = [(each, page.items) for each in asked for page in item_pages(each, Random(0))]
     for number, (each, items) in enumerate(pages, 1):
-        yield f"{name} {number}", FormPage(each, items, number, len(pages), rates)
+        alike = pages_alike([page for _, page in pages], items)
+        yield f"{name} {number}", FormPage(each, items, number, len(pages), rates, alike)

@@ -200,9 +200,9 @@ class Renderer:
                 case do.ShowResult(pairs=pairs, moves=moves, time_ms=time_ms, hints=hints):
                     screens.result.show(pairs, moves, time_ms, hints, screens.board.found)
                     yield from self._turn_to("result")
-                case do.ShowItems(items=items, number=number, of=pages, rates=rates, hidden=hidden, title=title):
+                case do.ShowItems(items, number, of=pages, rates=rates, hidden=hidden, title=title, alike=alike):
                     self._let_be_rated(rated=rates)
-                    screens.form.show(items, number, pages, hidden, title)
+                    screens.form.show(items, number, pages, hidden, title, alike)
                     yield from self._while_unseen("form")
                     screens.kiosk.show("form")
                 case do.HideItems(items=hidden):

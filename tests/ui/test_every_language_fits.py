@@ -28,6 +28,7 @@ from kiosk.experiment.events import TextSize
 from kiosk.experiment.information import Information
 from kiosk.experiment.items import Likert, Rating, TextPage
 from kiosk.experiment.questionnaire import Item, Questionnaire
+from kiosk.experiment.questionnaire_stage import pages_alike
 from kiosk.experiment.session_config import SessionConfig, StudyConfig
 from kiosk.study.loader import read_study
 from kiosk.ui.screens.registry import ScreenSet
@@ -567,16 +568,14 @@ def rating_pages(
     screens, ground = kiosk[0].screens, kiosk[0].shown.contentItem()
     assert list(shown_in(kiosk, layout, ("four ratings",))) == ["four ratings"]
     screens.avatar.leave(away=True)
-    for first in range(0, len(rated), 4):
-        page = rated[first : first + 4]
-        screens.form.show(tuple(page), 1, 5)
+    pages = [tuple(rated[first : first + 4]) for first in range(0, len(rated), 4)]
+    for page in pages:
+        screens.form.show(page, 1, 5, alike=pages_alike(pages, page))
         lay_out(kiosk[0].shown)
         ends = [[find_item(ground, f"answer-{item.id}-{end}") for end in item.ends] for item in page]
         scales = [reduce(QRectF.united, (whole(end) for end in both if end is not None)) for both in ends]
         # What is drawn of an item, without the distance to the one above it.
-        cards = [
-            whole(box.childItems()[0]) for item in page if (box := find_item(ground, f"item-{item.id}")) is not None
-        ]
+        cards = [whole(card) for item in page if (card := find_item(ground, f"card-{item.id}")) is not None]
         asked = {text.property("text").replace("\xa0", " "): painted(text) for text in texts(ground)}
         shown = [asked[item["shown"].replace("\xa0", " ")] for item in screens.form.property("items")]
         yield list(zip([item.points for item in page], cards, shown, scales, strict=True))
@@ -663,17 +662,16 @@ def background_of(button: QQuickItem) -> QQuickItem:
     return behind
 
 
-def test_statements_of_an_upright_page_stand_in_the_middle_between_the_edge_and_scales_at_one_depth(
+def test_statements_of_an_upright_page_stand_close_above_their_scales_which_are_at_one_depth(
     kiosk: tuple[Window, StudyConfig],
 ) -> None:
     pages = list(rating_pages(kiosk, Layout(1080, 1920)))
     lines = {round(shown.height() / 50) for page in pages for _, _, shown, _ in page}
     assert lines == {1, 2}
-    # There is some air above the letters, too.
-    uneven = [
-        (shown.top() - card.top()) - (scale.top() - shown.bottom()) for page in pages for _, card, shown, scale in page
-    ]
-    assert [round(by) for by in uneven if abs(by) > 8] == []
+    # There is some air below the letters, too.
+    above = {round(scale.top() - shown.bottom()) for page in pages for _, _, shown, scale in page}
+    assert max(above) <= 20
+    assert max(above) - min(above) <= 1
     depths = [scale.top() - card.top() for page in pages for _, card, _, scale in page]
     assert max(depths) - min(depths) <= 1
 
@@ -681,7 +679,7 @@ def test_statements_of_an_upright_page_stand_in_the_middle_between_the_edge_and_
 def test_the_words_for_the_ends_stand_once_above_the_points_of_a_wide_page_of_ratings(
     kiosk: tuple[Window, StudyConfig],
 ) -> None:
-    window, ground = kiosk[0], kiosk[0].shown.contentItem()
+    screens, ground = kiosk[0].screens, kiosk[0].shown.contentItem()
     item = SIXTEEN[0]
     assert isinstance(item, Likert)
     for page in rating_pages(kiosk, Layout(1920, 1080)):
@@ -692,13 +690,61 @@ def test_the_words_for_the_ends_stand_once_above_the_points_of_a_wide_page_of_ra
         assert [len(places) for places in heads] == [1, 1]
         (lowest,), (highest,) = heads
         (_, first, _, points), *_ = page
-        assert lowest.bottom() <= first.top() + 1
-        assert first.top() - lowest.bottom() <= 12
-        assert abs(lowest.left() - points.left()) <= 1
-        assert abs(highest.right() - points.right()) <= 1
+        # They stand in a band that ends where the first card begins.
+        band = find_item(ground, "table-head")
+        assert band is not None
+        assert whole(band).left() == first.left()
+        assert whole(band).right() == first.right()
+        assert whole(band).contains(lowest)
+        assert whole(band).contains(highest)
+        assert 0 <= whole(band).bottom() - first.top() <= 4
+        # Each is over the middle of its point, and over a column that all rows have.
+        ends = [points.left() + points.height() / 2, points.right() - points.height() / 2]
+        assert abs(lowest.center().x() - ends[0]) <= 1
+        assert abs(highest.center().x() - ends[1]) <= 1
+        for box in screens.form.property("items"):
+            columns = [find_item(ground, f"column-{box['id']}-{at}") for at in (0, 1)]
+            middles = [whole(column).center().x() for column in columns if column is not None]
+            assert middles == [pytest.approx(end, abs=1) for end in ends]
         # Each statement has most of its card's width.
-        assert points.left() > first.left() + 0.6 * first.width()
-    assert window.shown.width() == 1920
+        assert points.left() > first.left() + 0.55 * first.width()
+
+
+@pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)
+def test_scales_of_a_page_with_fewer_ratings_stand_where_they_do_on_the_full_ones(
+    kiosk: tuple[Window, StudyConfig], layout: Layout
+) -> None:
+    full, fewer = rating_pages(kiosk, layout, SIXTEEN[:4] + ASKED["trust"].items)
+    assert [len(full), len(fewer)] == [4, 3]
+    for (_, card, _, scale), (_, other, _, others) in zip(full, fewer, strict=False):
+        assert card.getRect() == pytest.approx(other.getRect(), abs=1)
+        assert scale.getRect() == pytest.approx(others.getRect(), abs=1)
+
+
+@pytest.mark.parametrize("language", SHIPPED)
+def test_scales_of_a_wide_page_stay_where_they_are_when_their_questions_are_pointed_out(
+    kiosk: tuple[Window, StudyConfig], language: str
+) -> None:
+    window, ground = kiosk[0], kiosk[0].shown.contentItem()
+    assert list(shown_in(kiosk, Layout(1920, 1080), ("four ratings",))) == ["four ratings"]
+    window.screens.set_language(next(plan for plan in kiosk[1].plans if plan.language == language).catalogue)
+    window.screens.avatar.leave(away=True)
+
+    def depths(items: tuple[Item, ...]) -> list[float]:
+        lay_out(window.shown)
+        points = [find_item(ground, f"answer-{item.id}-1") for item in items]
+        return [whole(point).top() for point in points if point is not None]
+
+    try:
+        for first in range(0, len(SIXTEEN), 4):
+            items = SIXTEEN[first : first + 4]
+            window.screens.form.show(items, 2, 5)
+            before = depths(items)
+            window.screens.form.show_missing(tuple(item.id for item in items))
+            assert depths(items) == pytest.approx(before, abs=2)
+            assert find_item(ground, "more") is None
+    finally:
+        window.screens.avatar.leave(away=False)
 
 
 @pytest.mark.parametrize("language", SHIPPED)
@@ -745,8 +791,8 @@ def test_that_an_item_does_not_apply_is_a_column_after_the_points_of_a_wide_page
 def test_ten_points_alone_on_a_page_are_large_circles_from_edge_to_edge_below_a_large_question(
     kiosk: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
-    ((one,),) = rating_pages(kiosk, layout, ALONE)
-    _, card, shown, scale = one
+    pages = rating_pages(kiosk, layout, ALONE)
+    ((_, card, shown, scale),) = next(pages)
     ground = kiosk[0].shown.contentItem()
     places = [
         whole(point) for n in range(1, 11) if (point := find_item(ground, f"answer-{ALONE[0].id}-{n}")) is not None
@@ -754,12 +800,24 @@ def test_ten_points_alone_on_a_page_are_large_circles_from_edge_to_edge_below_a_
     assert len(places) == 10
     wide = layout.width > layout.height
     assert {round(side) for place in places for side in (place.width(), place.height())} == {round(places[0].width())}
-    assert places[0].width() >= (90 if wide else 80)
-    assert all(after.left() - point.right() >= 8 for point, after in pairwise(places))
+    assert places[0].width() >= (143 if wide else 87)
+    assert all(after.left() - point.right() >= 7.5 for point, after in pairwise(places))
     assert abs((scale.left() - card.left()) - (card.right() - scale.right())) <= 1
     assert scale.width() > 0.93 * card.width()
     asked = next(text for text in texts(ground) if text.property("text").replace("\xa0", " ") == ALONE[0].text["en"])
-    assert asked.property("font").pixelSize() >= 50
+    assert asked.property("font").pixelSize() >= (60 if wide else 64)
+    # The card reaches from the line of pages to the helper's back, or has a good part of an upright page. What is on it
+    # stands in its middle.
+    assert card.height() >= (650 if wide else 620)
+    assert abs(shown.center().x() - card.center().x()) <= 2
+    ends = [painted(text) for text in texts(ground) if text.property("text") in ("not at all", "completely")]
+    assert [end.height() > 45 for end in ends] == [True, True]
+    assert abs((shown.top() - card.top()) - (card.bottom() - ends[0].bottom())) <= 16
+    # It is the one to answer next.
+    due = find_item(ground, f"due-{ALONE[0].id}")
+    assert due is not None
+    assert due.opacity() == 1
+    assert list(pages) == []
     assert card.top() + 30 < shown.top() < shown.bottom() + 30 < scale.top() < scale.bottom() + 30 < card.bottom()
 
 
@@ -771,15 +829,14 @@ def test_a_rating_of_any_kind_alone_on_a_page_has_a_card_and_its_width(
     ground = kiosk[0].shown.contentItem()
     item = next(item for item in GALLERY.items if item.kind == kind)
     assert list(shown_in(kiosk, layout, (f"one {kind}",))) == [f"one {kind}"]
-    box = find_item(ground, f"item-{item.id}")
-    assert box is not None
-    card = box.childItems()[0]
+    card = find_item(ground, f"card-{item.id}")
+    assert card is not None
     assert card.property("color").alpha() == 255
     last = item.ends[1] if isinstance(item, Rating) else 0
     names = [f"slider-{item.id}"] if kind == "slider" else [f"answer-{item.id}-1", f"answer-{item.id}-{last}"]
     ends = [whole(part) for name in names if (part := find_item(ground, name)) is not None]
     assert len(ends) == len(names)
-    assert round(ends[0].left() - whole(card).left()) == round(whole(card).right() - ends[-1].right()) > 20
+    assert round(ends[0].left() - whole(card).left()) == round(whole(card).right() - ends[-1].right()) >= 16
     line = find_item(ground, "page-line")
     assert line is not None
     assert round(whole(line).width()) == round(whole(card).width())

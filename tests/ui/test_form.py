@@ -392,9 +392,11 @@ def test_the_edge_of_the_question_that_comes_next_is_marked(booth: Booth) -> Non
     assert marked() == []
     form.show_answer(asked[2].id, 1)
     assert marked() == []
-    # One question alone needs no mark.
+    # One question alone needs no mark, unless it is a rating, which has a card.
     ask(booth, number)
     assert marked() == []
+    ask(booth, asked[2])
+    assert marked() == [asked[2].id]
 
 
 def test_what_is_missing_is_said_in_words_and_brought_into_view(booth: Booth) -> None:

@@ -26,8 +26,10 @@ PageFrame {
     readonly property real onTakes: {
         const label = text => Math.max(way.button.least, wordWidths.bold(text, way.letters) + 2 * way.button.leftPadding)
         const reasons = form.reasons.map(reason => wordWidths.slack * wordWidths.plain(reason, Theme.size(32)))
-        return Math.max(label(words["form-skip"]), label(words["form-next"]) + Theme.gap + Math.max(0, ...reasons))
+        return Math.max(label(words["form-skip"]), label(words["form-next"]) + view.nearby + Math.max(0, ...reasons))
     }
+    // How far what is missing stands before the way on that it belongs to.
+    readonly property real nearby: 16 * Theme.unit
     // Whether the helper stands behind a wide page, with its back to it, and how much height above the ways is its back's.
     property bool turned: false
     readonly property real kept: turned && !shape.upright && wider && Theme.textSize <= 1.15
@@ -133,11 +135,11 @@ PageFrame {
     PlainText {
         objectName: "form-waiting"
         parent: view.way
-        visible: !view.way.fills && view.way.waits && text !== "" && width + 2 * Theme.gap < view.way.freeRoom
+        visible: !view.way.fills && view.way.waits && text !== "" && width + view.nearby + Theme.gap < view.way.freeRoom
         text: view.form.waiting
         font.pixelSize: Theme.size(32)
         color: Theme.faintInk
-        x: Theme.across(parent.width - width - view.way.button.width - Theme.gap, width, parent.width)
+        x: Theme.across(parent.width - width - view.way.button.width - view.nearby, width, parent.width)
         y: (view.way.button.height - height) / 2
         Accessible.ignored: true
     }
@@ -176,8 +178,8 @@ PageFrame {
     }
     FocusScope {
         id: home
-        // A rating alone on its page has a place somewhat above the middle.
-        y: shape.solo ? shape.lead + (shape.free - height) / 3 : shape.alone ? Math.max(shape.lead, view.sink(height)) : shape.lead
+        // The card of a rating alone on its page begins where the first of several does.
+        y: shape.alone && !shape.solo ? Math.max(shape.lead, view.sink(height)) : shape.lead
         width: parent?.width ?? 0
         height: pane.height
         // At first at no item: no key of the page before may answer or skip one; Tab goes to the first.
@@ -198,14 +200,17 @@ PageFrame {
             // How much higher than usual each row of options of an upright page is.
             readonly property real grown: shape.easy && optionRows > 0 ? Math.max(0, Math.min(28 * Theme.unit, Math.floor((room - plain) / optionRows))) : 0
             readonly property real addable: summed(box => box.addable)
-            readonly property real loosened: (shape.calm || shape.rated) && addable > 0 ? Math.max(0, Math.min(1, (room - plain - optionRows * grown) / addable)) : 0
+            readonly property real loosened: (shape.calm || shape.rated) && addable > 0 ? Math.max(0, Math.min(1, (room / share - plain - optionRows * grown) / addable)) : 0
             readonly property real tall: summed(box => box.height)
+            readonly property real heads: summed(box => box.head)
             // Adds up what each item that is there has of something.
             function summed(of: var): real {
                 return view.all().reduce((sum, box) => sum + (box?.there ? of(box) : 0), 0)
             }
-            spacing: Math.max(least,
-                Math.min((shape.upright ? 72 : view.wider ? 26 : 44) * Theme.unit, (room - tall) / Math.max(1, boxes.count)))
+            // How many times as many places as items the page has.
+            readonly property real share: view.form.fullest > 0 ? shape.rows() / Math.max(1, shape.seen().length) : 1
+            spacing: Math.max(least, Math.min(ratingRows.table?.gap ?? (shape.upright ? 72 : view.wider ? 26 : 44) * Theme.unit,
+                (room - heads - share * (tall - heads)) / Math.max(1, boxes.count, view.form.fullest)))
             Repeater {
                 id: boxes
                 model: view.form.items
@@ -224,7 +229,7 @@ PageFrame {
                     opacity: keyboard.card === asked ? 1 : view.setBack
                     keyed: keyboard.field !== null && keyboard.card === asked
                     // While keys on the screen type into one, that is the one which is answered.
-                    due: !shape.alone && (keyboard.field !== null ? keyed : view.form.due === modelData.id)
+                    due: (!shape.alone || shape.solo) && (keyboard.field !== null ? keyed : view.form.due === modelData.id)
                     onEntered: field => {
                         keyboard.card = asked
                         keyboard.field = field

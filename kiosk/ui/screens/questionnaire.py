@@ -48,12 +48,17 @@ def _sentence(text: str) -> str:
     return f"{text}." if text[-1:].isalnum() else text
 
 
+def item_text(item: Item, catalogue: Catalogue) -> str:
+    """Return what is asked as it is broken into lines; a slider's also says what to do."""
+    text = in_language(item.text, catalogue.language)
+    # Words in the line, or above it, could draw touches to where they stand.
+    return kept_together(f"{_sentence(text)} {catalogue.text('form-touch')}" if isinstance(item, Slider) else text)
+
+
 def item_view(item: Item, catalogue: Catalogue, scale: Callable[[str], Path]) -> dict[str, Any]:
     """Return an item as QML shows it; ``scale`` tells where the pictures of a scale are."""
     shown: dict[str, Any] = {"id": item.id, "kind": item.kind, "text": in_language(item.text, catalogue.language)}
-    # Words in the line, or above it, could draw touches to where they stand.
-    asked = f"{_sentence(shown['text'])} {catalogue.text('form-touch')}" if isinstance(item, Slider) else shown["text"]
-    shown["shown"] = kept_together(asked)
+    shown["shown"] = item_text(item, catalogue)
     shown["required"] = not isinstance(item, TextPage) and item.required is True
     shown |= item.view(catalogue.language) | {
         "source": QUrl.fromLocalFile(str(item.qml)).toString() if item.qml else ""
@@ -109,6 +114,7 @@ class FormScreen(QObject):
         self._shown: tuple[Item, ...] = ()
         self._number = self._of = 0
         self._title: Mapping[str, str] | None = None
+        self._alike: tuple[tuple[Item, ...], ...] = ()
         self._answers: dict[str, Response] = {}
         self._given: dict[str, Response | None] = {}
         """What the visitor has answered, although it may not be shown yet."""
@@ -127,20 +133,22 @@ class FormScreen(QObject):
         for item, text in typed.items():
             self.filled.emit(item, text)
 
-    def show(
+    def show(  # noqa: PLR0913, PLR0917 - what a page is, and what it is laid out like
         self,
         items: tuple[Item, ...],
         number: int,
         of: int,
         hidden: tuple[str, ...] = (),
         title: Mapping[str, str] | None = None,
+        alike: tuple[tuple[Item, ...], ...] = (),
     ) -> None:
         """Show a page, ``number`` ``of`` so many, but for its hidden items; nothing is answered.
 
-        Without a ``title`` in any language, it has the one that all forms have.
+        Without a ``title`` in any language, it has the one that all forms have. Pages that are ``alike`` are laid out
+        as the fullest of them, so that their scales stand at the same places.
         """
         self._items, self._number, self._of = items, number, of
-        self._title = title
+        self._title, self._alike = title, alike
         self._views = None
         self._set_hidden(hidden)
         self._answers, self._given, self._drafts, self._missing = {}, {}, {}, ()
@@ -219,6 +227,17 @@ class FormScreen(QObject):
     def title(self) -> str:
         """Return what stands above the items."""
         return in_language(self._title, self._catalogue.language) if self._title else self._catalogue.text("form-title")
+
+    @Property(int, notify=changed)
+    def fullest(self) -> int:
+        """How many items the fullest page like this one has; 0 if this is the only one."""
+        return max(map(len, self._alike)) if len(self._alike) > 1 else 0
+
+    @Property(list, notify=changed)
+    def wordings(self) -> list[str]:
+        """Return what is asked on this page and on all that are laid out like it."""
+        pages = (self._items, *self._alike)
+        return list(dict.fromkeys(item_text(item, self._catalogue) for page in pages for item in page))
 
     @Property(str, notify=changed)
     def progress(self) -> str:

@@ -340,6 +340,25 @@ def test_questionnaires_come_one_after_another_and_share_no_page() -> None:
     assert len(driver.noted(happened.QuestionnairesCompleted)) == 1
 
 
+def test_pages_that_ask_on_one_scale_know_of_each_other() -> None:
+    seven = [likert(name, points=7) for name in ("e", "f")]
+    four, two = tuple(likert(name) for name in "abcd"), tuple(likert(name) for name in "xy")
+    first = questionnaire("first", *four, *seven, per_page=4)
+    second = questionnaire("second", *two, per_page=4)
+    third = questionnaire("third", likert("alone"), per_page=4)
+    small = plan(stages=("game", "questions"), game=Game(rows=1, columns=2))
+    driver = driven_to(Stage.QUESTIONS, replace(small, questionnaires=(first, second, third)))
+    alike = []
+    while driver.stage is Stage.QUESTIONS:
+        assert driver.view.page is not None
+        alike.append(driver.view.page.alike)
+        for item in driver.view.page.items:
+            driver.answer(2, item.id)
+        driver.go_on()
+    # A rating alone on its page has a layout of its own.
+    assert alike == [(four, two), (tuple(seven),), (four, two), ()]
+
+
 def test_each_page_has_the_title_of_its_questionnaire() -> None:
     driver = asking(PAGE, likert("one"), likert("two"), title={"en": "How far?", "it": "Quanto?"})
     titles = []

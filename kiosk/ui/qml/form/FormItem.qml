@@ -49,6 +49,11 @@ Item {
     readonly property ChoiceList choices: way.item as ChoiceList
     // How high it is without all that, and how much can be added to the distances.
     readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asks + (way.active ? usualSpacing + (choices?.least ?? way.height) : 0)) + 2 * usualMargin
+    // How large the question of a card alone on its page is: as large as leaves it in few lines.
+    readonly property real soloText: {
+        const [sizes, most] = page.upright ? [[72, 68, 64, 60, 56], 3] : [[64, 62, 60, 58, 56], Math.max(1, page.widths.lines(item.shown, Theme.size(52), page.inner))]
+        return sizes.map(size => Theme.size(size)).find(size => page.widths.lines(item.shown, size, page.inner) <= most) ?? Theme.size(52)
+    }
     // How much height its question and its scale leave of what two lines and a scale of five points take: on such a page
     // all cards are as high, and cards and scales stand at the same places on all pages. A question of one line stands in
     // the middle of the height of two.
@@ -57,7 +62,7 @@ Item {
     readonly property real asks: told.height + leaves
     readonly property real addable: page.alone || beside ? 0 : (page.ample ? 48 : 32) * Theme.unit
     // A word that it is missed, which stands there, takes some of it: four such cards still fit an upright page.
-    readonly property real usualSpacing: page.alone ? (page.solo && page.airy ? 2.6 : 2) * Theme.gap : (page.dense ? 4 : page.ample ? Theme.textSize > 1 ? 16 : missed ? 6 : 16 : page.easy ? 18 : page.airy ? 22 : columned ? 12 : page.calm ? 14 : 8) * Theme.unit
+    readonly property real usualSpacing: page.alone ? (page.solo ? page.upright ? page.airy ? 2.6 : 2 : page.tight ? 2 : 3 : 2) * Theme.gap : (page.dense ? 4 : page.ample ? Theme.textSize > 1 ? 16 : missed ? 6 : 16 : page.easy ? 18 : page.airy ? 22 : columned ? 12 : page.calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
     readonly property real usualMargin: bare ? 0 : page.solo ? (page.tight ? 20 : page.upright ? 56 : 44) * Theme.unit : rows.own || rows.table ? Math.max((rows.table ? 4 : 10) * Theme.unit, rows.margin - taken / 2) : (beside ? page.dense ? 9 : 20 : page.dense ? 8 : page.tight ? 10 : page.ample ? missed ? 9 : 18 : page.easy ? inline ? 28 : 30 : page.airy ? 26 : columned ? inline ? ranged ? 16 : 8 : 16 : page.largeText ? 13 : 17) * Theme.unit
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
@@ -105,19 +110,37 @@ Item {
         }
     }
     // The words for the ends stand above the first card of a table.
-    readonly property real head: parted + (beside && headed && !rows.own ? ((way.item as PointScale)?.words ?? 0) + 8 * Theme.unit : 0)
+    readonly property real head: parted + (topped ? rows.table.head : beside && headed && !rows.own ? ((way.item as PointScale)?.words ?? 0) + 8 * Theme.unit : 0)
+    // Whether it is the first card of a table, which the band with these words is joined to.
+    readonly property bool topped: rows.table !== null && headed
 
-    height: head + content.height + 2 * margin
+    height: Math.max(head + content.height + 2 * margin, page.solo ? Math.min(page.cleared, page.upright ? 640 * Theme.unit : Infinity) : 0)
 
+    TableHead {
+        objectName: "table-head"
+        visible: box.topped
+        width: box.width
+        height: box.head + card.border.width
+        rows: box.rows
+        leftEnd: box.item.left ?? ""
+        rightEnd: box.item.right ?? ""
+        before: box.width - box.page.inset - box.rows.scaleWidth
+    }
     Rectangle {
+        id: card
+        objectName: `card-${box.item.id}`
         anchors { fill: parent; topMargin: box.head }
         radius: Theme.radius
+        topLeftRadius: box.topped ? 0 : radius
+        topRightRadius: topLeftRadius
         color: box.bare ? "transparent" : Theme.white
         border { color: box.missed ? Theme.deepAmber : Theme.edge; width: box.bare ? 0 : (box.missed ? 5 : 3) * Theme.unit }
         Rectangle {
             objectName: `due-${box.item.id}`
             anchors.fill: parent
             radius: Theme.radius
+            topLeftRadius: card.topLeftRadius
+            topRightRadius: topLeftRadius
             color: "transparent"
             // All edges are dark with high contrast.
             border { color: Theme.sea; width: (Theme.highContrast ? 7 : 3) * Theme.unit }
@@ -126,6 +149,22 @@ Item {
         }
     }
 
+    // Behind the first point and the last: these columns lead from row to row and up to the words for the ends.
+    Repeater {
+        model: box.rows.table === null ? 0 : 2
+        Rectangle {
+            required property int index
+            objectName: `column-${box.item.id}-${index}`
+            readonly property real reach: 12 * Theme.unit
+            readonly property real from: box.width - box.page.inset - box.rows.scaleWidth - reach
+                + index * (box.rows.scaleWidth - box.rows.beyond - (box.rows.table?.point ?? 0))
+            x: Theme.across(from, width, box.width)
+            y: box.head + card.border.width
+            width: (box.rows.table?.point ?? 0) + 2 * reach
+            height: card.height - 2 * card.border.width
+            color: Theme.column
+        }
+    }
     FontMetrics {
         id: lineOf
         font: question.font
@@ -133,39 +172,40 @@ Item {
     Column {
         id: content
         anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; verticalCenterOffset: box.head / 2 - box.raised; margins: box.bare ? 0 : box.page.inset }
-        spacing: box.usualSpacing
+        // The word that a rating alone is missed stands in that distance, and its points stay where they are.
+        spacing: box.page.solo && box.missed ? Math.max(20 * Theme.unit, box.usualSpacing - 12 * Theme.unit - box.page.widths.leading * Theme.small) : box.usualSpacing
 
         Item {
             id: asked
             width: parent.width
             // Where the middle of a row is: that of the points, and not of words above them.
             readonly property real scaled: (way.item as PointScale)?.size ?? (way.item as SliderScale)?.rail ?? 0
-            // How high the words are that head the points of a table.
+            // How high the words are that head the points, where they are not in a band.
             readonly property real heads: (way.item as PointScale)?.head ?? 0
             // The text is level with the points. With the light words below them, these stand a little above the middle.
             readonly property real axis: box.rows.flank ? middle : box.rows.own ? Math.max((height - way.height + scaled) / 2 + 0.3 * box.rows.margin, told.height / 2 - 8 * Theme.unit) : middle
             // Rows of one line and of two are as high; with words for its ends it is as high as a scale and a line of words.
-            readonly property real middle: Math.max(box.rows.own || box.rows.table ? box.rows.height : scaled, told.height, box.beside && !box.page.dense ? 2 * 1.37 * box.rows.text : 0) / 2
+            readonly property real middle: Math.max(box.rows.own || box.rows.table ? box.rows.height : scaled, told.height, box.beside && !box.page.dense ? (1 + box.rows.closeness) * 1.37 * box.rows.text : 0) / 2
             height: box.crowned ? box.rows.flank.crownedHeight : box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : box.asks + (way.active ? content.spacing + way.height : 0)
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.leaves / 2
+                y: box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : (box.leaves + box.lacks) / 2
                 width: box.beside && !box.crowned ? box.rows.textWidth : box.inline ? asked.width - box.questions.fieldWidth : asked.width
-                spacing: box.inline || box.rows.table ? 0 : box.page.ample ? 4 * Theme.unit : content.spacing
+                spacing: box.inline || box.rows.table ? 0 : box.page.solo ? 12 * Theme.unit : box.page.ample ? 4 * Theme.unit : content.spacing
                 Balanced {
                     id: question
                     width: parent.width
                     text: box.item.shown
                     Accessible.name: box.item.text
                     font {
-                        pixelSize: box.item.kind === "page" ? Theme.size(36) : box.page.solo && !box.page.largeText ? Theme.size(52) : box.page.alone ? Theme.heading
-                            : box.beside || (box.item.kind === "slider" && box.rows.text > 0) ? box.rows.text
+                        pixelSize: box.item.kind === "page" ? Theme.size(36) : box.page.solo && !box.page.largeText ? box.soloText : box.page.alone ? Theme.heading
+                            : box.beside || (box.item.kind === "slider" && box.rows.text > 0) ? box.missed ? box.rows.noted(box.item) : box.rows.text
                             : box.columned ? box.questions.asking : box.page.dense ? Theme.reading : box.page.easy ? Theme.size(36) : box.page.airy ? Theme.size(38) : Theme.body
                         bold: box.item.kind !== "page"
                     }
-                    lineHeight: box.item.kind === "page" ? 1.15 : box.page.ample ? 0.92 : 1
-                    horizontalAlignment: Text.AlignLeft
+                    lineHeight: box.item.kind === "page" ? 1.15 : box.page.ample ? 0.92 : box.rows.closeness
+                    horizontalAlignment: box.page.solo ? Text.AlignHCenter : Text.AlignLeft
                 }
                 // What a number may be, below the question where the number stands beside that.
                 PlainText {
@@ -183,7 +223,7 @@ Item {
                     text: box.refused ? box.words["form-refused"] : box.form.wrong.includes(box.item.id) ? box.item.wrong ?? box.words["form-missing"]
                         : box.words[box.item.required ? "form-missing" : "form-skipped"]
                     font { pixelSize: Theme.small; bold: true }
-                    horizontalAlignment: Text.AlignLeft
+                    horizontalAlignment: question.horizontalAlignment
                     wrapMode: Text.Wrap
                     color: Theme.deepAmber
                 }
@@ -208,9 +248,9 @@ Item {
             }
             Loader {
                 id: way
-                readonly property real room: box.beside && !box.crowned ? box.rows.scaleWidth - box.rows.exempting : asked.width
+                readonly property real room: box.beside && !box.crowned ? box.rows.scaleWidth - box.rows.beyond : asked.width
                 x: Theme.across(box.crowned ? 0 : box.beside ? asked.width - box.rows.scaleWidth : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.crowned ? asked.height - height : box.rows.flank ? asked.middle - height / 2 : box.rows.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.y + told.height + box.lacks / 2 + content.spacing
+                y: box.crowned ? asked.height - height : box.rows.flank ? asked.middle - height / 2 : box.rows.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.y + told.height + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
@@ -300,7 +340,7 @@ Item {
             flank: box.rows.flank
             table: box.rows.table
             crowned: box.crowned
-            lift: box.rows.own ? 0 : box.margin + asked.middle - size / 2 + 8 * Theme.unit
+            lift: box.rows.own ? 0 : box.usualMargin + asked.middle - size / 2 + 8 * Theme.unit
             item: box.item.id
             label: box.item.text
             points: box.item.points

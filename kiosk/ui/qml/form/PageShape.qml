@@ -19,7 +19,10 @@ QtObject {
     readonly property bool alone: items.length === 1
     // Whether it is one rating of any kind: it has a card as wide as those of several.
     readonly property bool solo: alone && ["likert", "differential", "pictures", "slider"].includes(items[0].kind)
-    readonly property bool dense: items.length > 4
+    // How many items it is laid out for: as many as the fullest page has that asks on the same scale. So points stand at
+    // the same places on all of these.
+    readonly property int places: alone ? 1 : Math.max(items.length, form.fullest)
+    readonly property bool dense: places > 4
     // Whether there is little height for what stands on the page.
     readonly property bool tight: room < 720 * Theme.unit
     // Whether there is much.
@@ -42,7 +45,7 @@ QtObject {
     // Whether a few ratings have an upright page.
     readonly property bool rated: airy && !alone && rates
     // Whether it has height for large distances between a question and its scale, even with two lines in each card.
-    readonly property bool ample: rated && items.length * (widths.leading * (2 * Theme.size(38) + Theme.size(30))
+    readonly property bool ample: rated && places * (widths.leading * (2 * Theme.size(38) + Theme.size(30))
         + (Theme.textSize > 1 ? 190 : 198) * Theme.unit) <= free
 
     // Whether the page says which of the form's pages it is, and whether a line above the cards shows that too.
@@ -51,10 +54,12 @@ QtObject {
     // How far below that line the first card begins, and what it leaves of the height for cards.
     readonly property real lead: !lined ? 0 : (largeText ? 8 : upright ? 28 : 20) * Theme.unit
     readonly property real free: room - lead
+    // The same with air below the last card, where the helper's back stands. What is pointed out may take that.
+    readonly property real cleared: free - 32 * Theme.unit
     // How far cards are from each other at least.
     readonly property real gap: (dense || tight ? 8 : 12) * Theme.unit
     // How far the content of a card is from its left and right edges, and what that leaves of its width.
-    readonly property real inset: (easy ? 1.5 : 1.2) * Theme.gap
+    readonly property real inset: solo && upright && items[0].points > 7 ? 16 * Theme.unit : (easy ? 1.5 : 1.2) * Theme.gap
     readonly property real inner: column - 2 * inset
 
     function scales(item: var): bool {
@@ -63,6 +68,10 @@ QtObject {
     // The items that are not hidden. No property: one of its own would for a moment be that of the page before.
     function seen(): var {
         return items.filter(item => !form.hidden.includes(item.id))
+    }
+    // How many places there are for those, at least.
+    function rows(): int {
+        return Math.max(1, form.fullest, seen().length)
     }
     // The item that is seen before this one, or null.
     function before(at: int): var {

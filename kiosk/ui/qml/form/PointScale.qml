@@ -26,7 +26,7 @@ Item {
     property bool own: false
     // How its row looks if they stand at both sides of the points instead, level with them; null if they do not.
     property var flank: null
-    // How its row looks if they stand once above all rows; null if they do not.
+    // How its row looks if they stand once in a band above all rows; null if they do not.
     property var table: null
     // Whether it has the width of its card, below its question.
     property bool crowned: false
@@ -39,7 +39,7 @@ Item {
     signal chosen(int point)
 
     readonly property bool pictured: pictures.length > 0
-    readonly property real wish: (alone ? 132 : beside ? dense ? 72 : 92 : dense ? 58 : tight ? 66 : large ? 112 : 76) * Theme.unit * (pictured ? 1.25 : 1)
+    readonly property real wish: (full ? 144 : alone ? 132 : beside ? dense ? 72 : 92 : dense ? 58 : tight ? 66 : large ? 112 : 76) * Theme.unit * (pictured ? 1.25 : 1)
     // Whether there are more points than stand well in a row with the words for their ends: they then have its width,
     // from edge to edge, and the words stand below them.
     readonly property bool many: points > 7 && !pictured
@@ -54,7 +54,7 @@ Item {
     readonly property real tall: long ? wish : size
     // How much of that height they leave, above themselves and below.
     readonly property real inset: evened ? Math.max(0, (wish - tall) / 2) : 0
-    readonly property real filling: width / (points + (even ? 0.113 : 0.24) * (points - 1))
+    readonly property real filling: width / (points + (even ? full ? 0.09 : 0.113 : full ? 0.22 : 0.24) * (points - 1))
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real most: 250 * Theme.unit * Theme.textSize
     readonly property bool roomy: lowest.implicitWidth + highest.implicitWidth + 2 * Theme.gap + points * size + least <= width
@@ -73,7 +73,7 @@ Item {
     readonly property real half: Math.min(width / 2 - Theme.gap, Math.max(span / 2 - 0.5 * Theme.gap, most))
 
     // In a table the ends stand above the points: they head the rows below, too.
-    readonly property real head: beside && headed && !own ? words + lift : 0
+    readonly property real head: beside && headed && !own && !table ? words + lift : 0
 
     // In a row, what has air below its letters is in the middle by what can be seen of it.
     height: spread ? row.height + words + under - 8 * Theme.unit : flank ? size : beside && !own ? head + row.height : below ? row.height + words + under : Math.max(row.height, words)
@@ -81,24 +81,24 @@ Item {
     // Under the first point, or above it; or before it, at the edge where the question begins.
     PlainText {
         id: lowest
-        visible: !scale.beside || scale.own || scale.headed
+        visible: !scale.table && (!scale.beside || scale.own || scale.headed)
         x: Theme.across(0, width, scale.width)
         y: scale.beside && !scale.own ? scale.words - height : scale.below ? row.y + row.height + scale.under : (scale.height - height) / 2
-        width: scale.table ? Math.ceil(implicitWidth) : scale.below ? scale.half : scale.leftRoom
+        width: scale.below ? scale.half : scale.leftRoom
         text: scale.leftEnd
         horizontalAlignment: scale.flank && !scale.spread ? Text.AlignRight : Text.AlignLeft
         lineHeight: scale.flank && !scale.spread ? 0.9 : 1
-        font.pixelSize: (scale.flank ?? scale.table)?.end ?? (scale.own ? Theme.size(28) : scale.full || scale.large ? Theme.size(Theme.textSize > 1.15 ? 30 : 34) : scale.beside || scale.alone ? Theme.size(30) : Theme.small)
+        font.pixelSize: scale.flank?.end ?? (scale.own ? Theme.size(28) : scale.full || scale.large ? Theme.size(Theme.textSize > 1.15 ? 30 : scale.full ? 40 : 34) : scale.beside || scale.alone ? Theme.size(30) : Theme.small)
         wrapMode: Text.Wrap
         color: Theme.ink
     }
     PlainText {
         id: highest
         visible: lowest.visible
-        readonly property real end: scale.table ? scale.width : Math.max(scale.span, 2 * scale.half + Theme.gap)
+        readonly property real end: Math.max(scale.span, 2 * scale.half + Theme.gap)
         x: Theme.across(scale.below ? end - width : scale.leftRoom + scale.span + 2 * Theme.gap, width, scale.width)
         y: scale.beside && !scale.own ? scale.words - height : scale.below ? lowest.y : (scale.height - height) / 2
-        width: scale.table ? Math.ceil(implicitWidth) : scale.below ? scale.half : scale.rightRoom
+        width: scale.below ? scale.half : scale.rightRoom
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
         lineHeight: lowest.lineHeight
@@ -160,7 +160,7 @@ Item {
                         visible: !scale.pictured
                         readonly property real reach: Math.min(scale.size, scale.tall)
                         text: point.number
-                        font { pixelSize: Math.min(Theme.heading, Math.max((scale.inset > 0 || scale.long || scale.full && scale.many ? 0.48 : 0.42) * reach, Math.min(Theme.body, 0.5 * reach))); bold: true }
+                        font { pixelSize: Math.min(scale.full ? Theme.size(56) : Theme.heading, Math.max((scale.inset > 0 || scale.long || scale.full && scale.many ? 0.48 : 0.42) * reach, Math.min(Theme.body, 0.5 * reach))); bold: true }
                         color: point.on ? Theme.white : Theme.ink
                     }
                     Image {

@@ -1,6 +1,6 @@
 // How a wide page lays out its ratings as rows, each scale beside its question. What is tried, best first:
 //
-// 1. All have the same scale: the words for its ends stand once, above the first row, as the head of a table (table).
+// 1. All have the same scale: the words for its ends stand once, in a band above the first row, as the head of a table.
 // 2. These words stand at both sides of each scale (flanked).
 // 3. They stand below it (own).
 // 4. They stand above the first scale of several that have the same, among others.
@@ -33,8 +33,10 @@ QtObject {
     // How much of a row is its question's and its scale's.
     readonly property real textWidth: measured?.textWidth ?? 0.42 * page.inner
     readonly property real scaleWidth: measured?.scaleWidth ?? 0.54 * page.inner
-    // How much of the scale's width is for that button.
-    readonly property real exempting: table?.exempting ?? 0
+    // How much of the scale's width is after its points, for that button or the end of the word above the last.
+    readonly property real beyond: table?.beyond ?? 0
+    // How high the second line of a question is, as a share of the first.
+    readonly property real closeness: table !== null && !page.dense ? 0.92 : 1
     // How high the content of a row is, and how much of the row is above and below that.
     readonly property real height: measured?.height ?? 98 * Theme.unit + widths.leading * Theme.size(28)
     readonly property real margin: table !== null ? table.margin : flank !== null ? flank.margin - partings * parting / 2 / Math.max(1, page.seen().length) : 18 * Theme.unit
@@ -47,7 +49,7 @@ QtObject {
     // The sizes of points, of the words for their ends and of questions that a table is tried in, and in how many lines
     // these may stand.
     readonly property var tableTrials: [
-        [96, 32, 36, 2], [96, 32, 34, 2], [92, 30, 32, 2], [84, 28, 32, 2], [76, 28, 32, 2], [72, 28, 29, 2], [72, 28, 29, 3]
+        [104, 34, 42, 2], [104, 34, 40, 2], [100, 34, 38, 2], [96, 32, 36, 2], [96, 32, 34, 2], [92, 30, 32, 2], [84, 28, 32, 2], [76, 28, 32, 2], [72, 28, 29, 2], [72, 28, 29, 3]
     ]
     // The sizes of points, of the words for their ends and of questions that flanked rows are tried in, and in how many
     // lines these may stand.
@@ -57,6 +59,13 @@ QtObject {
         [84, 28, 36, 2], [84, 28, 32, 2], [84, 28, 29, 2], [84, 28, 29, 3]
     ]
 
+    // How large a question is that has a note below it that it is missed: rows of a table have the same height with it.
+    function noted(item: var): real {
+        if (table === null || page.dense)
+            return text
+        const lines = widths.lines(item.shown, text, textWidth)
+        return Math.min(text, (height + 2 * margin - 10 * Theme.unit - widths.leading * Theme.small) / widths.leading / (1 + closeness * (lines - 1)))
+    }
     // Whether this scale stands beside its question.
     function beside(item: var): bool {
         return own || table !== null || text > 0 && page.scales(item)
@@ -91,21 +100,27 @@ QtObject {
             && ["points", "left", "right"].every(key => item[key] === one[key]))
     }
     // How a table looks in the first sizes in which it fits; null if it fits in none. A question has the width that the
-    // points leave.
+    // points leave. What all pages ask that are laid out like this one counts.
     function tabled(): var {
-        const one = page.items[0], rows = Math.max(1, page.seen().length)
+        const one = page.items[0], rows = page.rows()
+        const gap = (page.dense ? 8 : 20) * Theme.unit
         for (const [pointUnits, endUnits, textUnits, most] of tableTrials) {
             const point = pointUnits * Theme.unit, end = Theme.size(endUnits), text = Theme.size(textUnits)
-            const ends = 1.03 * (widths.plain(one.left, end) + widths.plain(one.right, end)) + 1.5 * Theme.gap
+            const left = 1.03 * widths.plain(one.left, end), right = 1.03 * widths.plain(one.right, end)
+            // Each of the words stands over the middle of its point.
+            const pointsWidth = Math.ceil(Math.max((one.points + 0.23 * (one.points - 1)) * point, point + (left + right) / 2 + Theme.gap))
+            // What the last word has after its point: that an item does not apply, or some air.
+            const after = Math.ceil(Math.max(page.dense ? 0 : 3 * Theme.gap, (right - point) / 2 - page.inset + 0.75 * Theme.gap))
             const exempting = page.items.some(item => item.exempts) ? Math.ceil(1.03 * widths.plain(exemption, Theme.small)) + 36 * Theme.unit + Theme.gap : 0
-            const scaleWidth = Math.ceil(Math.max((one.points + 0.25 * (one.points - 1)) * point, ends)) + exempting
+            const beyond = Math.max(after, exempting), scaleWidth = pointsWidth + beyond
             const textWidth = page.inner - scaleWidth - 2 * Theme.gap
-            const lines = Math.max(0, ...page.items.map(item => widths.lines(item.shown, text, textWidth)))
-            const height = Math.max(point, widths.leading * text * Math.max(page.dense ? 1 : 2, lines))
-            const head = widths.leading * end + 8 * Theme.unit
-            const margin = Math.min(44 * Theme.unit, ((page.free - head) / rows - page.gap - height) / 2)
-            if (lines <= most && textWidth > 0.3 * page.inner && margin >= (page.dense ? 8 : 14) * Theme.unit)
-                return {point, end, exempting, scaleWidth, textWidth, text, height, margin}
+            const lines = Math.max(0, ...page.form.wordings.map(asked => widths.lines(asked, text, textWidth)))
+            // Even pixels: what is in the middle of a row is at the same place in all of them.
+            const height = 2 * Math.ceil(Math.max(point, widths.leading * text * (page.dense ? lines : 1 + 0.92 * Math.max(1, lines - 1))) / 2)
+            const head = Math.ceil(widths.leading * end + (page.dense ? 4 : 14) * Theme.unit)
+            const margin = Math.floor(Math.min(44 * Theme.unit, ((page.cleared - head + gap) / rows - gap - height) / 2))
+            if (lines <= most && textWidth > 0.3 * page.inner && margin >= (page.dense ? 8 : 12) * Theme.unit)
+                return {point, end, beyond, scaleWidth, textWidth, text, height, margin, head, gap}
         }
         return null
     }
