@@ -14,6 +14,7 @@ PageFrame {
     readonly property var read: aside === "" ? about.lines : about.lines.slice(0, -1)
 
     title: about.title
+    titleSize: upright && led && Theme.textSize <= 1.15 && widths.bold(about.title, Theme.size(80)) <= column ? Theme.size(80) : Theme.pageTitle
     label: words["about-continue"]
     other: returning.offered ? words["return-offer"] : ""
     way.otherName: "return-offer"
@@ -30,16 +31,25 @@ PageFrame {
     // Beside the helper each line has a large drawing, where the page has room for that. Nothing is around it: it is no button.
     readonly property bool upright: width < height
     readonly property bool airy: (upright ? Theme.textSize <= 1.15 : aside !== "") && read.every(line => line.sign !== "") && airySize > 0
-    readonly property real airySize: (upright ? [42, 40, 38, 36] : led ? [38, 37, 36] : [46, 44, 42, 40, 38, 36]).map(Theme.size).find(size => fitsAiry(size)) ?? 0
+    readonly property real airySize: (upright ? [42, 40, 38, 36] : led ? [42, 40, 38, 37, 36] : [46, 44, 42, 40, 38, 36]).map(Theme.size).find(size => fitsAiry(size)) ?? 0
+    readonly property real airyWidth: column - badge - 1.5 * Theme.gap
     // A line that has a heading is smaller than it, so that the headings alone tell what happens.
     readonly property bool led: read.some(line => line.text.includes("\n"))
-    readonly property real larger: led ? 1.2 : 1
-    // The rows take the page: the first drawing begins where the cards of other pages do, and the last one ends with them.
-    readonly property real margin: 14 * Theme.unit
-    readonly property real badge: Math.max(80 * Theme.unit, Math.min((upright ? 176 : 150) * Theme.unit, 0.9 * (room - 2 * margin) / Math.max(1, read.length)))
-    readonly property real pitch: Math.min((upright ? 400 : 260) * Theme.unit, (room - 2 * margin - badge) / Math.max(1, read.length - 1))
+    function leadOf(size: real): real {
+        return !led ? size : Math.min((upright ? 1.35 : 1.2) * size, Theme.size(upright ? 54 : 48))
+    }
+    // The rows take the page. The last drawing ends with the cards of other pages on a wide page, and well above the way
+    // on, which is below all of it, on an upright one.
+    readonly property real margin: (upright ? 14 : 24) * Theme.unit
+    readonly property real under: (upright ? 80 : 38) * Theme.unit - Theme.gap
+    readonly property real badge: Math.max(80 * Theme.unit, Math.min((upright ? 176 : 132) * Theme.unit, 0.9 * (room - margin - under) / Math.max(1, read.length)))
+    readonly property real pitch: Math.min((upright ? 400 : 260) * Theme.unit, (room - margin - under - badge) / Math.max(1, read.length - 1))
     function fitsAiry(size: real): bool {
-        return pitch >= badge && read.every(line => said(line.text, larger * size, size, column - badge - 1.5 * Theme.gap) <= Math.min(pitch - 0.3 * Theme.gap, badge + 2 * margin))
+        const heights = read.map(line => said(line.text, leadOf(size), size, airyWidth))
+        // A heading is in one line, and the first and the last row reach only a little beyond their drawings.
+        return pitch >= badge && (!led || read.every(line => widths.lines(line.text.split("\n")[0], leadOf(size), airyWidth) === 1))
+            && [heights[0], heights[heights.length - 1]].every(end => end <= badge + 64 * Theme.unit)
+            && heights.every((height, at) => at === 0 || (heights[at - 1] + height) / 2 + 0.8 * Theme.gap <= pitch)
     }
     // How high a line is about, and its heading, if it has one.
     function said(text: string, leadSize: real, size: real, wide: real): real {
@@ -70,6 +80,16 @@ PageFrame {
                 required property var modelData
                 width: parent?.width ?? 0
                 height: view.airy ? view.badge : line.height
+                // What happens one after the other is a path. The last line says what all of it takes.
+                Rectangle {
+                    objectName: "path"
+                    visible: view.airy && row.index + 1 < Math.min(view.read.length, view.about.lines.length - 1)
+                    x: Theme.across((view.badge - width) / 2, width, row.width)
+                    y: view.badge
+                    width: 4 * Theme.unit
+                    height: view.pitch - view.badge
+                    color: Theme.sand
+                }
                 SignedLine {
                     id: line
                     y: (row.height - height) / 2
@@ -79,7 +99,7 @@ PageFrame {
                     // What it takes of the visitor, by which they decide.
                     strong: !view.led && row.index > 0 && view.aside === "" && row.index === view.read.length - 1
                     size: view.airy ? view.airySize : view.size
-                    leadSize: view.airy ? view.larger * size : size
+                    leadSize: view.airy ? view.leadOf(size) : size
                     badge: view.airy ? view.badge : 2.5 * size
                     centred: view.airy
                 }

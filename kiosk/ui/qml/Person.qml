@@ -1,4 +1,4 @@
-// A grown-up or a child, drawn like the animals of the cards and with the helper's colours, on a square of 240.
+// A portrait of a grown-up or a child in a disc, drawn like the animals of the cards and with the helper's colours.
 import QtQuick
 import QtQuick.Shapes
 
@@ -8,17 +8,22 @@ Shape {
     // A child is smaller, and its head is larger for its size.
     property bool child: false
 
-    // Both stand with the middle of their height in the middle of the square.
-    readonly property real headX: 41
-    readonly property real headY: child ? 39 : 41
-    readonly property real face: child ? 84 : 55
+    // The disc around the middle of a square of 240. What is below its rim is not seen.
+    readonly property real rim: 142
+    readonly property real headX: child ? 44 : 47
+    readonly property real headY: child ? 42 : 47
+    readonly property real face: child ? 121 : 78
     readonly property real neck: face + headY - 7
-    readonly property real feet: child ? 206 : 232
     readonly property real crown: child ? face - headY - 20 : face - 1.16 * headY
-    readonly property real half: child ? 46 : 62
+    readonly property real half: child ? 58 : 78
     // How high the rounded shoulders begin to bend.
     readonly property real bend: neck + (child ? 34 : 46)
     readonly property color hair: child ? "#C8793A" : "#5B3A24"
+
+    // Where the rim is, so far from the middle.
+    function foot(aside: real): real {
+        return 120 + Math.sqrt(rim * rim - aside * aside)
+    }
 
     width: 240
     height: 240
@@ -27,15 +32,14 @@ Shape {
     ShapePath { // the ground that the cards' pictures have, too
         strokeWidth: -1
         fillColor: "#F9DDA9"
-        PathAngleArc { centerX: 120; centerY: 120; radiusX: 142; radiusY: 142; sweepAngle: 360 }
+        PathAngleArc { centerX: 120; centerY: 120; radiusX: person.rim; radiusY: person.rim; sweepAngle: 360 }
     }
     ShapePath { // the body
         strokeWidth: -1
         fillColor: "#2E7784"
         PathSvg {
             path: `M 120 ${person.neck} C ${120 + 0.8 * person.half} ${person.neck} ${120 + person.half} ${person.bend - 14} ${120 + person.half} ${person.bend + 12} `
-                + `V ${person.feet - 16} Q ${120 + person.half} ${person.feet} ${120 + person.half - 16} ${person.feet} H ${120 - person.half + 16} `
-                + `Q ${120 - person.half} ${person.feet} ${120 - person.half} ${person.feet - 16} V ${person.bend + 12} `
+                + `V ${person.foot(person.half)} A ${person.rim} ${person.rim} 0 0 1 ${120 - person.half} ${person.foot(person.half)} V ${person.bend + 12} `
                 + `C ${120 - person.half} ${person.bend - 14} ${120 - 0.8 * person.half} ${person.neck} 120 ${person.neck} Z`
         }
     }
@@ -45,7 +49,7 @@ Shape {
         fillColor: "transparent"
         capStyle: ShapePath.RoundCap
         PathSvg {
-            path: `M ${120 - 0.52 * person.half} ${person.feet - 3} V ${person.bend + 22} M ${120 + 0.52 * person.half} ${person.feet - 3} V ${person.bend + 22}`
+            path: `M ${120 - 0.52 * person.half} ${person.foot(0.52 * person.half) - 3} V ${person.bend + 22} M ${120 + 0.52 * person.half} ${person.foot(0.52 * person.half) - 3} V ${person.bend + 22}`
         }
     }
     ShapePath { // the head
