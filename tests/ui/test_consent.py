@@ -120,40 +120,63 @@ def test_a_double_click_is_one_tick(booth: Booth, done: Done) -> None:
     assert done == [("store", True)]
 
 
-def test_the_way_to_agree_says_what_is_to_go_until_the_required_boxes_are_ticked_and_can_be_tapped(
+def test_a_line_above_both_answers_says_what_is_to_go_until_the_required_boxes_are_ticked(
     booth: Booth, done: Done
 ) -> None:
-    assert booth.item("agree").property("quiet")
-    assert booth.item("consent-waits").property("text") == "To take part, tick the 2 boxes that are needed"
-    height = booth.item("consent-waits").height()
-    assert booth.item("agree").property("note") == "2 boxes to go"
-    booth.app.screens.consent.show_ticks(REQUIRED - {"store"})
-    assert booth.item("consent-waits").property("text") == "To take part, tick the box that is needed"
-    assert booth.item("agree").property("note") == "One box to go"
+    heading = "To take part, tick the 2 boxes that are needed"
+    lines = ["To take part: 2 boxes to go", "To take part: one box to go", "Now choose below."]
+    ticked: list[frozenset[str]] = [frozenset(), REQUIRED - {"store"}, REQUIRED]
+    for line, ticks in zip(lines, ticked, strict=True):
+        booth.app.screens.consent.show_ticks(ticks)
+        assert booth.item("ways-line").property("text") == line
+        assert booth.item("consent-waits").property("text") == heading
+        told = QAccessible.queryAccessibleInterface(booth.item("agree"))
+        assert isinstance(told, QAccessibleInterface)
+        assert told.text(QAccessible.Text.Description) == ("" if ticks == REQUIRED else line)
+    booth.app.screens.consent.show_ticks(frozenset())
     booth.click("agree")
     assert done == ["agreed"]
-    booth.app.screens.consent.show_ticks(REQUIRED)
-    assert booth.item("agree").property("note") == ""
-    assert not booth.item("agree").property("quiet")
-    assert (booth.item("consent-waits").property("text"), booth.item("consent-waits").height()) == (
-        "That is all that is needed. Now choose below.",
-        height,
-    )
 
 
 @pytest.mark.usefixtures("done")
-def test_once_all_that_is_needed_is_ticked_the_helper_says_to_choose_and_what_it_said_before(booth: Booth) -> None:
-    booth.app.screens.consent.show(SHORT.model_copy(update={"points": ("No name.", "You can play."), "signs": ()}))
-    booth.settle()
-    ground = booth.app.window.contentItem()
-    assert says(ground, "You can play.")
-    booth.app.screens.consent.show_ticks(REQUIRED)
-    lay_out(booth.app.window)
-    assert says(ground, "Now choose below.\nYou can play.")
-    assert booth.item("consent-waits").property("text") == "That is all that is needed."
-    booth.app.screens.consent.show_ticks(frozenset())
-    lay_out(booth.app.window)
-    assert says(ground, "You can play.")
+@pytest.mark.parametrize("language", ["en", "es", "it", "de", "ar"])
+@pytest.mark.parametrize("size", [(1920, 1080), (1080, 1920)], ids=["wide", "upright"])
+def test_the_line_is_large_and_close_above_the_answers_and_clear_of_the_boxes(
+    booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
+) -> None:
+    window = booth.app.window
+    booth.app.screens.set_language(WORDS.get(language, ENGLISH))
+    booth.app.screens.kiosk.begin((language,), language, Settings().consent)
+    booth.app.screens.kiosk.offer_back(offered=True)
+    booth.app.screens.consent.show(SHORT)
+    window.resize(*size)
+    qtbot.waitUntil(lambda: window.contentItem().width() == size[0])
+    lay_out(window)
+    line, decline, agree = (booth.item(name) for name in ("ways-line", "decline", "agree"))
+    both = place(decline).united(place(agree))
+    assert line.property("font").pixelSize() >= 34
+    assert line.property("color") == booth.item("page-title").property("color")
+    assert painted(line).center().x() == pytest.approx(both.center().x(), abs=2)
+    assert both.top() - place(line).bottom() == pytest.approx(24, abs=2)
+    assert place(line).top() >= place(booth.item("purpose-share")).bottom() + 12
+    # As much is free at both ends of either.
+    for answer in (decline, agree):
+        (words,) = texts(answer)
+        assert painted(words).left() - place(answer).left() >= 46
+        assert place(answer).right() - painted(words).right() >= 46
+    if size[0] > size[1]:
+        back = place(booth.item("back"))
+        assert max(back.left() - both.right(), both.left() - back.right()) >= 46
+    else:
+        for heading, above in (("consent-waits", None), ("consent-optional", "purpose-store")):
+            letters = painted(booth.item(heading))
+            lowest = (
+                place(booth.item(above)).bottom()
+                if above
+                else max(place(text).bottom() for text in texts(window.contentItem()) if lies_in(text, "SignedLine"))
+            )
+            # A line has a part of its height free above its capitals.
+            assert letters.top() + 0.3 * letters.height() - lowest >= 46
 
 
 def test_what_is_missing_is_said_in_words_until_it_is_ticked(booth: Booth, done: Done) -> None:
@@ -182,13 +205,13 @@ def test_to_decline_looks_like_to_agree_before_and_after_the_boxes_are_ticked(
     def looks() -> list[tuple[object, ...]]:
         return [appearance(booth.item(name), window.grabWindow()) for name in ("decline", "agree", "back")]
 
-    decline, agree, back = looks()
-    assert decline == agree
-    assert decline[2:] == back[2:]
+    before = looks()
     booth.app.screens.consent.show_ticks(REQUIRED)
-    decline, agree, back = looks()
+    assert looks() == before
+    decline, agree, back = before
     assert decline == agree
-    assert decline[2:] != back[2:]
+    # Both are filled, and the way back is not.
+    assert decline[2] == agree[2] != back[2]
     booth.click("decline")
     assert done == ["declined"]
 
@@ -227,27 +250,6 @@ def test_on_an_upright_screen_both_answers_share_the_width_and_back_stands_where
     lay_out(window)
     if scale == 1:
         assert place(booth.item("back")).center().y() == pytest.approx(back.center().y(), abs=1)
-
-
-@pytest.mark.usefixtures("done")
-@pytest.mark.parametrize("language", ["en", "ar"])
-@pytest.mark.parametrize(("width", "height"), [(960, 540), (540, 960)])
-def test_what_is_to_go_and_the_words_of_the_button_are_one_group_in_its_middle(
-    booth: Booth, qtbot: QtBot, width: int, height: int, language: str
-) -> None:
-    window = booth.app.window
-    booth.app.screens.kiosk.begin((language,), language, Settings().consent)
-    window.resize(width, height)
-    qtbot.waitUntil(lambda: window.contentItem().width() == width)
-    agree = booth.item("agree")
-    words, note = (painted(each) for each in sorted(texts(agree), key=QQuickItem.objectName))
-    group = words.united(note)
-    middle = place(agree).center()
-    assert abs(group.center().x() - middle.x()) <= 2
-    assert abs(group.center().y() - middle.y()) <= 4
-    assert words.center().y() < note.center().y()
-    # About 32 pixels of a screen of 1080 lines.
-    assert note.height() >= 32 * 1.36 / 2
 
 
 @pytest.mark.usefixtures("done")

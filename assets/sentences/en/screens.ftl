@@ -36,21 +36,19 @@ consent-required = needed
 consent-optional = up to you
 consent-agreed = agreed
 consent-missing = Please tick this box if you want to take part.
-# Above the way on, as long as boxes that are needed have no tick.
+# Above the boxes that are needed.
 consent-waits =
     { $number ->
         [one] To take part, tick the box that is needed
        *[other] To take part, tick the { $number } boxes that are needed
     }
-# Within the way on, as long as boxes that are needed have no tick.
+# Above both answers, as long as boxes that are needed have no tick.
 consent-to-go =
     { $number ->
-        [one] One box to go
-       *[other] { $number } boxes to go
+        [one] To take part: one box to go
+       *[other] To take part: { $number } boxes to go
     }
-# In its place, once all of them have one.
-consent-ready = That is all that is needed.
-# After that, or in the helper's bubble. It must favour neither answer.
+# In its place, once all of them have one. It must favour neither answer.
 consent-choose = Now choose below.
 consent-agree = I take part
 consent-decline = Play without taking part

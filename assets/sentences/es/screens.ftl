@@ -37,21 +37,19 @@ consent-required = necesario
 consent-optional = como prefieras
 consent-agreed = de acuerdo
 consent-missing = Si quieres participar, marca esta casilla.
-# Above the way on, as long as boxes that are needed have no tick.
+# Above the boxes that are needed.
 consent-waits =
     { $number ->
         [one] Para participar, marca la casilla necesaria
        *[other] Para participar, marca las { $number } casillas necesarias
     }
-# Within the way on, as long as boxes that are needed have no tick.
+# Above both answers, as long as boxes that are needed have no tick.
 consent-to-go =
     { $number ->
-        [one] Falta una casilla
-       *[other] Faltan { $number } casillas
+        [one] Para participar falta una casilla
+       *[other] Para participar faltan { $number } casillas
     }
-# In its place, once all of them have one.
-consent-ready = No hace falta nada más.
-# After that, or in the helper's bubble. It must favour neither answer.
+# In its place, once all of them have one. It must favour neither answer.
 consent-choose = Ahora elige abajo.
 consent-agree = Participo
 consent-decline = Jugar sin participar

@@ -37,21 +37,19 @@ consent-required = necessario
 consent-optional = come preferisci
 consent-agreed = d'accordo
 consent-missing = Se vuoi partecipare, spunta questa casella.
-# Above the way on, as long as boxes that are needed have no tick.
+# Above the boxes that are needed.
 consent-waits =
     { $number ->
         [one] Per partecipare, spunta la casella necessaria
        *[other] Per partecipare, spunta le { $number } caselle necessarie
     }
-# Within the way on, as long as boxes that are needed have no tick.
+# Above both answers, as long as boxes that are needed have no tick.
 consent-to-go =
     { $number ->
-        [one] Manca una casella
-       *[other] Mancano { $number } caselle
+        [one] Per partecipare manca una casella
+       *[other] Per partecipare mancano { $number } caselle
     }
-# In its place, once all of them have one.
-consent-ready = È tutto ciò che serve.
-# After that, or in the helper's bubble. It must favour neither answer.
+# In its place, once all of them have one. It must favour neither answer.
 consent-choose = Ora scegli qui sotto.
 consent-agree = Partecipo
 consent-decline = Gioco senza partecipare

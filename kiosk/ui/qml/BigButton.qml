@@ -15,16 +15,11 @@ Button {
     property bool quiet: false
     // A quiet one that is the way on, once what the page asks for is done: it looks at rest until then, unlike all that can be chosen.
     property bool waits: false
-    // A few words more, such as why it waits: after the words where it is wide enough, else as a line below them, which makes
-    // it no higher. Both are one group in its middle.
+    // A few words more, such as why it waits: after the words, where it is wide enough. Both are one group in its middle.
     property string note: ""
-    // Whether it may stand below, and after them.
-    property bool noteBelow: true
-    property bool noteAside: true
     // How far it is from the words there.
     readonly property real apart: 0.8 * Theme.gap
-    readonly property bool noteBeside: note !== "" && noteAside && measure.advanceWidth + apart + noted.advanceWidth + 2.4 * Theme.gap <= width
-    readonly property bool noteUnder: note !== "" && noteBelow && !noteBeside
+    readonly property bool noteBeside: note !== "" && measure.advanceWidth + apart + noted.advanceWidth + 2.4 * Theme.gap <= width
     // How round it is at most.
     property real corner: Infinity
     property real letters: Theme.onButtons
@@ -71,7 +66,6 @@ Button {
     contentItem: Text {
         transform: Translate {
             x: button.noteBeside ? -Theme.ahead * (button.apart + noted.advanceWidth) / 2 : 0
-            y: button.noteUnder ? -below.height / 2 - 2 * Theme.unit : 0
         }
         textFormat: Text.PlainText
         text: button.words
@@ -83,22 +77,16 @@ Button {
         wrapMode: button.width < button.needed - 2 ? Text.Wrap : Text.NoWrap
     }
     Text {
-        id: below
         objectName: "note"
-        x: button.noteBeside ? Theme.across((parent.width + measure.advanceWidth + button.apart - noted.advanceWidth) / 2, width, parent.width) : (parent.width - width) / 2
-        width: button.noteBeside ? Math.ceil(noted.advanceWidth) + 2 : parent.width - 2 * Theme.gap
-        // On one line with the words. Below them, both are a little higher than the middle: as much is free above the capitals
-        // as below the note's letters.
-        y: button.noteBeside ? (parent.height - height) / 2 + 0.39 * (button.letters - letters) : (parent.height + Math.ceil(1.4 * button.letters) - height) / 2 - 2 * Theme.unit
-        // As large as the words leave it height for.
-        readonly property real letters: button.noteBeside ? noted.font.pixelSize : Math.max(24 * Theme.unit, Math.min(0.9 * button.letters, (button.height - 1.4 * button.letters) / 1.4))
-        visible: button.noteBeside || button.noteUnder
-        height: button.note === "" ? 0 : Math.ceil(1.37 * letters)
+        x: Theme.across((parent.width + measure.advanceWidth + button.apart - noted.advanceWidth) / 2, width, parent.width)
+        width: Math.ceil(noted.advanceWidth) + 2
+        // On one line with the words.
+        y: (parent.height - height) / 2 + 0.39 * (button.letters - noted.font.pixelSize)
+        visible: button.noteBeside
+        height: button.note === "" ? 0 : Math.ceil(1.37 * noted.font.pixelSize)
         textFormat: Text.PlainText
         text: button.note
-        font.pixelSize: letters
-        fontSizeMode: Text.HorizontalFit
-        minimumPixelSize: 24 * Theme.unit
+        font.pixelSize: noted.font.pixelSize
         horizontalAlignment: Text.AlignHCenter
         color: button.waits ? Theme.ink : button.quiet ? Theme.sea : Theme.white
         Accessible.ignored: true

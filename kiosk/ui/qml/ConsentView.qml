@@ -13,42 +13,51 @@ PageFrame {
     property bool whole: false
     readonly property bool short: consent.points.length > 0 && !whole
 
-    // What of the points the helper says; once nothing is missing, below what there is to do now.
-    readonly property string said: short ? sayable(consent.points) : ""
-    aside: said !== "" && consent.complete ? `${words["consent-choose"]}\n${said}` : said
-    readonly property var read: said === "" ? consent.points : consent.points.slice(0, -1)
+    aside: short ? sayable(consent.points) : ""
+    readonly property var read: aside === "" ? consent.points : consent.points.slice(0, -1)
 
-    // An upright page has the largest letters with which points and boxes are all seen at once: in points, in boxes, and how
-    // many gaps apart its groups are. Whether it has the largest of all, and whether even the smallest are too large.
+    // The page has the largest letters with which points and boxes are all seen at once: in points, in boxes, how many gaps
+    // apart its groups are, and how many are in a box above and below its words. Whether it has the largest of all, and
+    // whether even the smallest are too large.
     readonly property bool upright: width < height
-    readonly property var sizes: [[38, 36, 1], [36, 36, 0.7], [36, 36, 0.5], [34, 33, 0.7], [34, 33, 0.5]]
-    readonly property int fitting: short && upright ? sizes.findIndex(([point, box, apart], at) => tall(point, box, apart) + (at === 0 ? 1.6 * Theme.gap : 0) <= pane.room) : 0
+    readonly property var sizes: upright ? [[38, 36, 1, 0.8], [38, 36, 0.7, 0.6], [36, 36, 0.6, 0.5], [36, 36, 0.4, 0.35], [34, 33, 0.6, 0.4], [34, 33, 0.4, 0.35]]
+        : [[34, 33, 0.9, 0.5], [34, 33, 0.6, 0.35], [32, 31, 0.6, 0.35], [32, 31, 0.4, 0.25], [30, 29, 0.4, 0.25]]
+    readonly property int fitting: short ? sizes.findIndex(([point, box, apart, inside]) => tall(point, box, apart, inside) <= pane.room) : -1
+    // How far a heading keeps from what is above it, of which its own line has a part above its letters.
+    readonly property real clear: (upright ? 48 : 36) * Theme.unit - 0.3 * Theme.size(36)
+    readonly property real heads: Theme.size(upright ? 38 : Math.min(36, used[0] + 2))
+    // How wide a drawing is for its letters.
+    readonly property real badge: upright || !paired || Theme.textSize > 1 ? 2.1 : 2.5
+    // Two points stand beside each other on a wide page, which leaves height to what there is to tick.
+    readonly property bool paired: !upright && read.length === 2
     readonly property bool snug: fitting !== 0
     readonly property bool tight: fitting < 0
-    readonly property var used: sizes[tight ? sizes.length - 1 : fitting]
+    readonly property var used: sizes[tight ? sizes.length - 1 : Math.min(fitting, sizes.length - 1)]
     FontMetrics {
         id: measure
         font.pixelSize: 100
     }
-    // About how high points and boxes are on an upright page, with letters of these sizes, so many gaps apart.
-    function tall(pointSize: real, boxSize: real, apart: real): real {
-        const points = read.reduce((sum, point) => sum + Math.max(2.5 * pointSize, 1.48 * pointSize * lines(point.text, pointSize, 2.5 * pointSize + 24)), 0)
-        const boxes = consent.purposes.reduce((sum, purpose) => sum + Math.max(76, 1.37 * boxSize * lines(purpose.text, boxSize, 64 + 3 * 28)) + 38, 0)
-        return Theme.size(points + boxes + 2 * 1.37 * pointSize) + (apart * (read.length - 1 + consent.purposes.length) + 1.2) * Theme.gap
+    // About how high points and boxes are, with letters of these sizes, so many gaps apart.
+    function tall(pointSize: real, boxSize: real, apart: real, inside: real): real {
+        const wide = paired ? 0.5 * column - Theme.gap : column
+        const points = read.map(point => Math.max(badge * pointSize, 1.48 * pointSize * lines(point.text, pointSize, badge * pointSize + 24, wide)))
+        const boxes = consent.purposes.reduce((sum, purpose) => sum + Math.max((upright ? 76 : 64) / Theme.textSize, 1.37 * boxSize * lines(purpose.text, boxSize, 64 + 3 * 28, column)), 0)
+        return Theme.size((paired ? Math.max(...points) : points.reduce((sum, point) => sum + point, 0)) + boxes) + 2 * (1.37 * Theme.size(upright ? 38 : 36) + clear)
+            + (apart * (0.9 * (paired ? 0 : read.length - 1) + consent.purposes.length) + 2 * inside * consent.purposes.length) * Theme.gap
     }
-    // On how many lines a text is that leaves so much of the width to something else.
-    function lines(text: string, size: real, taken: real): int {
-        return Math.ceil(1.05 * measure.advanceWidth(text) * size / 100 / (column / Theme.unit / Math.max(1, Theme.textSize) - taken))
+    // On how many lines a text is in so much width that leaves so much of it to something else.
+    function lines(text: string, size: real, taken: real, wide: real): int {
+        return Math.ceil(1.05 * measure.advanceWidth(text) * size / 100 / (wide / Theme.unit / Math.max(1, Theme.textSize) - taken))
     }
 
     title: consent.title
     label: words["consent-agree"]
-    quiet: !consent.complete
     other: words["consent-decline"]
     way.name: "agree"
     way.even: true
-    way.reason: consent.waiting
-    way.note: consent.toGo
+    way.reason: consent.toGo
+    // What is still to be done, or that there is a choice now, right above both answers. It must favour neither.
+    way.above: consent.toGo || words["consent-choose"]
     way.otherName: "decline"
     onWent: consent.agree()
     onTurnedDown: consent.decline()
@@ -90,7 +99,7 @@ PageFrame {
     }
     FocusScope {
         id: home
-        y: Math.min(view.sink(height), view.room - height)
+        y: Math.max(0, Math.min(view.sink(height), pane.room - height))
         width: parent?.width ?? 0
         height: pane.height
         // At first at no box: the page is read from its top, and no key ticks what was not seen. Tab goes to the first.
@@ -101,21 +110,19 @@ PageFrame {
             id: pane
             width: parent.width
             // The boxes keep some distance from the answers below, but where large texts need the room.
-            room: view.room - Math.max(0, view.way.over - 0.5 * Theme.gap) - (Theme.textSize > 1.15 ? 0 : view.upright ? 1.4 * Theme.gap : 0.5 * Theme.gap)
+            room: view.room - Math.max(0, view.way.over - 0.5 * Theme.gap) - (Theme.textSize > 1.15 ? 0 : (view.upright ? 1 : 0.5) * Theme.gap)
             more: view.words["scroll-more"]
             // What there is to tick stands apart from what is read, as far as the page has room.
-            spacing: Math.max(0.5 * Theme.gap, Math.min((view.upright ? 3.4 : 2.2) * Theme.gap, room - (view.short ? points.height : sheet.height) - boxes.height))
+            spacing: view.upright && boxes.grouped ? boxes.before : Math.max(0.5 * Theme.gap, Math.min((view.upright ? 3.4 : 2.2) * Theme.gap, room - (view.short ? points.height : sheet.height) - boxes.height))
 
             Grid {
                 id: points
                 visible: view.short
                 width: pane.width
-                // Larger on an upright screen, but where large texts need the room themselves.
-                readonly property bool airy: Theme.textSize <= 1.15 && (view.upright && !view.tight
-                    || (view.accompanied && 95 * view.read.length + 140 * view.consent.purposes.length + 85 <= pane.room / Theme.unit))
-                spacing: (!airy ? 0.6 : !view.upright ? 1.2 : 0.9 * view.used[2]) * Theme.gap
-                // Two stand beside each other, which leaves height to what there is to tick.
-                columns: airy && !view.upright && view.read.length === 2 ? 2 : 1
+                // But where large texts need the room themselves.
+                readonly property bool airy: Theme.textSize <= 1.15 && !view.tight
+                spacing: (!airy ? 0.6 : 0.9 * view.used[2]) * Theme.gap
+                columns: airy && view.paired ? 2 : 1
                 columnSpacing: 2 * Theme.gap
                 Repeater {
                     model: view.short ? view.read : []
@@ -124,7 +131,8 @@ PageFrame {
                         width: (points.width - (points.columns - 1) * points.columnSpacing) / points.columns
                         text: modelData.text
                         sign: modelData.sign
-                        size: points.airy ? Theme.size(view.upright ? view.used[0] : 34) : Theme.body
+                        badge: view.badge * size
+                        size: points.airy ? Theme.size(view.used[0]) : Theme.body
                     }
                 }
             }
@@ -176,19 +184,23 @@ PageFrame {
                 readonly property bool grouped: needs && view.short && points.airy && view.consent.purposes.every((purpose, index, all) => purpose.required || !all.slice(index).some(other => other.required))
                 // With a capital letter, as a heading.
                 readonly property string optional: view.words["consent-optional"].charAt(0).toUpperCase() + view.words["consent-optional"].slice(1)
-                // How much further apart stands what is not needed, as far as the page has room.
-                readonly property real further: {
-                    if (!view.short || !points.airy)
-                        return 0
-                    let free = pane.room - points.height - 1.6 * Theme.gap - waits.height
-                    if (grouped && view.consent.purposes.some(purpose => !purpose.required))
-                        free -= waits.height + spacing
+                readonly property bool parted: grouped && view.consent.purposes.some(purpose => !purpose.required)
+                // What the page has left for distances before its headings.
+                readonly property real free: {
+                    let left = pane.room - points.height - (parted ? 2 : 1) * waits.height
                     for (let i = 0; i < purposes.count; i++)
-                        free -= ((purposes.itemAt(i) as Purpose)?.bare ?? 0) + spacing
-                    return Math.max(0, Math.min((view.upright ? 1.3 : points.columns > 1 ? 1 : 0.5) * Theme.gap, free))
+                        left -= ((purposes.itemAt(i) as Purpose)?.bare ?? 0) + spacing
+                    return left
                 }
-                spacing: (points.airy && view.short ? (view.upright ? view.used[2] : points.columns > 1 ? 0.9 : 0.67) : 0.5) * Theme.gap
-                // What is still to be ticked, or that nothing is.
+                // The same before both headings of an upright page.
+                readonly property real before: Math.max(0.5 * Theme.gap, Math.min(2.4 * Theme.gap, parted ? 0.5 * (free + (1 - below) * spacing) : free))
+                // How many of the distances between boxes are between the second heading and its box.
+                readonly property real below: view.upright ? 0.7 : 1
+                // How much further apart stands what is not needed, as far as the page has room.
+                readonly property real further: !view.short || !points.airy ? 0 : view.upright && parted ? Math.max(0, before - spacing)
+                    : Math.max(0, Math.min((view.upright ? 1.3 : points.columns > 1 ? 1 : 0.5) * Theme.gap, free - 1.6 * Theme.gap - (parted ? spacing : 0)))
+                spacing: (points.airy && view.short ? view.used[2] : Theme.textSize <= 1.15 ? 0.5 : 0.4) * Theme.gap
+                // What is to be ticked.
                 PlainText {
                     id: waits
                     objectName: "consent-waits"
@@ -199,9 +211,8 @@ PageFrame {
                     visible: boxes.needs
                     width: boxes.width
                     height: Math.ceil(letters.height)
-                    text: view.consent.waiting || view.words["consent-ready"] + (view.said === "" ? ` ${view.words["consent-choose"]}` : "")
-                    onTextChanged: if (view.visible && view.consent.complete) Accessible.announce(waits.text, Accessible.Polite)
-                    font { pixelSize: points.airy && view.short ? Theme.size(view.upright ? 38 : 36) : Theme.reading; bold: true }
+                    text: view.consent.asked
+                    font { pixelSize: points.airy && view.short ? view.heads : Theme.reading; bold: true }
                     fontSizeMode: Text.HorizontalFit
                     minimumPixelSize: Theme.size(24)
                     verticalAlignment: Text.AlignVCenter
@@ -235,12 +246,13 @@ PageFrame {
                         TickBox {
                             id: tick
                             objectName: "purpose-" + purpose.modelData.id
-                            y: group.visible ? group.y + group.height + (view.upright ? 0.7 : 1) * boxes.spacing : purpose.apart ? boxes.further : 0
+                            y: group.visible ? group.y + group.height + boxes.below * boxes.spacing : purpose.apart ? boxes.further : 0
                             width: parent.width
                             large: points.airy && view.short
                             broad: large && view.upright && !view.snug
-                            font.pixelSize: !large ? Theme.reading : Theme.size(view.upright ? view.used[1] : 33)
-                            roomy: view.short && Theme.textSize <= 1.15
+                            font.pixelSize: !large ? Theme.reading : Theme.size(view.used[1])
+                            roomy: view.upright
+                            verticalPadding: (large ? view.used[3] : view.short ? 0.25 : 0.45) * Theme.gap
                             words: purpose.modelData.text
                             needed: purpose.modelData.required
                             headed: boxes.grouped

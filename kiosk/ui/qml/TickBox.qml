@@ -16,7 +16,7 @@ Choosable {
     // What stands there instead, once it is ticked.
     property string agreed: ""
     property string warning: ""
-    // Where there is height for it.
+    // Whether a large one is higher than its mark on a page with height for it.
     property bool roomy: false
     // On an upright page with much height.
     property bool broad: false
@@ -24,7 +24,6 @@ Choosable {
     property bool large: false
 
     horizontalPadding: (large ? 28 : 17) * Theme.unit
-    verticalPadding: (broad ? 0.8 : roomy ? 0.7 : 0.45) * Theme.gap
     font.pixelSize: large ? Theme.size(broad ? 36 : 33) : Theme.reading
     Accessible.role: Accessible.CheckBox
     Accessible.name: words
@@ -64,7 +63,7 @@ Choosable {
         readonly property real clear: (box.large ? 2.5 : 1) * Theme.gap
         readonly property bool beside: noted && !box.broad && noteWidth + clear < 0.4 * room
         readonly property bool below: noted && box.broad && noteWidth <= room
-        implicitHeight: Math.max(box.large ? 76 * Theme.unit : mark.height, told.height)
+        implicitHeight: Math.max(box.large && box.roomy ? 76 * Theme.unit : mark.height, told.height)
         implicitWidth: mark.width
         Rectangle {
             id: mark

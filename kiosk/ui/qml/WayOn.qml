@@ -15,21 +15,25 @@ FocusScope {
     property bool waits: false
     // Why it waits, for those who cannot see it.
     property string reason: ""
-    // The same in short, within it.
+    // The same in short, within it on an upright page.
     property string note: ""
+    // What stands in a line above the ways on, if anything.
+    property string above: ""
     // Whether the ways on take what the way back leaves of the width, with gaps as wide between all of them.
     property bool fills: false
     // What the other way on says, such as a no; and what the two are called.
     property string other: ""
-    // Whether both are alike: as large, and filled from the moment both can be chosen, so that the page favours neither.
+    // Whether both are alike: as large, and both filled, so that the page favours neither.
     property bool even: false
     property string name: "continue"
     property string otherName: ""
-    // Two that are alike beside each other are as large as leaves each in one line on a wide page, and in two on an upright one.
-    readonly property real letters: !even || !refuses ? Theme.onWays : [Theme.onWays, Theme.onBack].find(size => fills ? inHalves(size)
-        : Math.max(widths.bold(label, size), widths.bold(other, size)) + 2 * padding <= spread) ?? (fills ? Theme.onWays : Theme.body)
+    // Two that are alike stand beside each other with the largest letters that leave each in one line on a wide page, and in
+    // two on an upright one. Words that are too long for that have two lines on a wide page as well.
+    readonly property var tried: fills ? [[Theme.onWays, 2], [Theme.onBack, 2]] : [[Theme.onWays, 1], [Theme.onBack, 1], [(10 + 24 * Theme.textSize) * Theme.unit, 1], [Theme.onBack, 2]]
+    readonly property var abreast: even && goes && refuses ? tried.find(([size, most]) => fitBeside(size, most)) : undefined
+    readonly property real letters: !even || !refuses ? Theme.onWays : abreast?.[0] ?? (fills ? Theme.onWays : Theme.body)
     // What is beside the words of two that are alike.
-    readonly property real padding: 28 * Theme.unit
+    readonly property real padding: 48 * Theme.unit
     // How high a way on is with its words in one line.
     readonly property real tall: Math.max(112 * Theme.unit, 52 * Theme.unit + 1.36 * Theme.body)
     readonly property alias button: go
@@ -47,23 +51,23 @@ FocusScope {
     readonly property real wish: (goes ? go.wish : 0) + (refuses ? no.wish + Theme.gap : 0)
         + (returns ? back.wish + Theme.gap : 0)
     // Two equal ones share the width of an upright page. The way back then stands below them, where other pages have it.
-    readonly property bool halved: even && fills && goes && refuses && inHalves(letters)
+    readonly property bool halved: fills && abreast !== undefined
     readonly property real half: Math.floor((width - 32 * Theme.unit) / 2)
+    // On a wide page they stand beside the way back, and well apart from it.
+    readonly property bool level: !fills && abreast !== undefined
     // Where their words are too long for that, one stands above the other.
-    readonly property bool beside: !(even && fills && refuses) && wish <= width
-    // How wide both are beside each other: as their words need.
-    readonly property bool level: even && beside && goes && refuses
-    readonly property real spread: (width - (returns ? back.width + Theme.gap : 0) - Theme.gap) / 2
-    // Two equal ones are higher than a single one, with air above and below a line and its note, but where the note has
-    // room beside the words.
-    readonly property real stout: even && (!fills || Theme.textSize > 1.15) ? 10 * Theme.unit : 0
-    readonly property real share: Math.min(spread, Math.max(go.wish, no.wish))
+    readonly property bool beside: even && goes && refuses ? level : wish <= width
+    readonly property real share: abreast?.[1] === 2 ? spread(letters)
+        : Math.max(go.least, Math.ceil(Math.max(widths.bold(label, letters), widths.bold(other, letters))) + 2 + 2 * padding)
+    readonly property real each: halved ? half : spread(letters)
     // Large texts set both one above the other on a wide page as well, and there too they are as wide as each other.
     readonly property bool stacked: even && !fills && !beside && goes && refuses
     readonly property real pile: Math.min(width - (returns ? back.width + Theme.gap : 0), Math.max(go.wish, no.wish))
     readonly property real step: Math.round((fills && Theme.textSize <= 1.15 ? 1.1 : 0.5) * Theme.gap)
     // How far they reach above their place.
-    readonly property real over: Math.max(0, -go.y)
+    readonly property real over: Math.max(0, -go.y) + head
+    // What the line above them takes.
+    readonly property real head: above !== "" ? told.height + (Theme.textSize <= (fills ? 1.15 : 1) ? 1 : 0.5) * Theme.gap : 0
     // As high without a way on, so that the way back stands at the same place.
     readonly property real tallest: level ? Math.round(go.implicitHeight) : !goes && !returns ? 0 : Math.max(goes ? go.height : Math.round(go.implicitHeight), returns ? back.height : 0)
 
@@ -77,10 +81,15 @@ FocusScope {
 
     height: beside ? tallest : (goes ? go.height : 0) + second + (returns && !paired ? back.height + step + lower : 0)
 
-    // Whether two equal ones have room beside each other on an upright page, in two lines at most.
-    function inHalves(size: real): bool {
-        const room = half - 2 * padding
-        return [label, other].every(text => widths.lines(text, size, room) <= 2 && text.split(" ").every(word => widths.bold(word, size) <= room))
+    // How wide each of two equal ones can be beside the way back on a wide page, with letters of this size.
+    function spread(size: real): real {
+        const returning = returns ? Math.ceil(widths.bold(words["control-back"], Math.min(size, Theme.onBack))) + 2 + 2 * back.leftPadding + 2 * Theme.gap : 0
+        return Math.floor((width - returning - Theme.gap) / 2)
+    }
+    // Whether two equal ones have room beside each other, in so many lines at most.
+    function fitBeside(size: real, most: int): bool {
+        const room = (fills ? half : spread(size)) - 2 * padding
+        return [label, other].every(text => (most === 1 ? widths.bold(text, size) + 2 <= room : widths.lines(text, size, room) <= most) && text.split(" ").every(word => widths.bold(word, size) <= room))
     }
 
     // The next visitor begins at the way on, whichever button the last one used.
@@ -90,20 +99,39 @@ FocusScope {
         id: widths
     }
     // What is beside the words of one of them there: two lines are about as long as each other.
-    function besideHalf(text: string): real {
-        const words = text.split(" "), room = half - 2 * padding
+    function aside(text: string): real {
+        const words = text.split(" "), room = each - 2 * padding
         if (widths.bold(text, letters) <= room)
             return padding
         const longer = words.map((_, at) => Math.max(widths.bold(words.slice(0, at).join(" "), letters), widths.bold(words.slice(at).join(" "), letters)))
-        return Math.max(padding, (half - 1.02 * Math.min(...longer)) / 2 - 2)
+        return Math.max(padding, (each - 1.02 * Math.min(...longer)) / 2 - 2)
     }
 
+    PlainText {
+        id: told
+        objectName: "ways-line"
+        readonly property real span: ways.level ? 2 * ways.share + Theme.gap : ways.halved ? ways.width : go.width
+        visible: text !== ""
+        x: Theme.across(ways.width - span, width, ways.width)
+        y: (ways.level ? go.y : 0) - ways.head
+        width: span
+        height: Math.ceil(1.37 * font.pixelSize)
+        text: ways.above
+        onTextChanged: if (visible) Accessible.announce(told.text, Accessible.Polite)
+        font { pixelSize: ((ways.fills ? 16 : 14) + 20 * Theme.textSize) * Theme.unit; bold: true }
+        fontSizeMode: Text.HorizontalFit
+        minimumPixelSize: 24 * Theme.unit
+        horizontalAlignment: Text.AlignHCenter
+        verticalAlignment: Text.AlignVCenter
+        // Those who cannot see it are told it with the way on.
+        Accessible.ignored: true
+    }
     BigButton {
         id: go
         letters: ways.letters
         least: 320 * Theme.unit
         tall: ways.tall
-        horizontalPadding: ways.halved ? ways.besideHalf(words) : ways.even ? ways.padding : 56 * Theme.unit
+        horizontalPadding: ways.abreast ? ways.aside(words) : ways.even ? ways.padding : 56 * Theme.unit
         objectName: ways.name
         visible: ways.goes
         most: ways.width
@@ -114,13 +142,11 @@ FocusScope {
         // Where the other one has two lines, both grow up and down, and the row stays where it is.
         y: ways.level ? (ways.tallest - height) / 2 : ways.second
         // Whole pixels: two that are alike are as high as each other.
-        height: Math.round(ways.even && ways.refuses ? Math.max(implicitHeight + ways.stout, no.implicitHeight) : implicitHeight)
-        corner: ways.level || ways.halved ? no.topPadding + no.font.pixelSize : Infinity
+        height: Math.round(ways.even && ways.refuses ? Math.max(implicitHeight, no.implicitHeight) : implicitHeight)
+        corner: ways.abreast ? no.topPadding + no.font.pixelSize : Infinity
         quiet: ways.quiet
         waits: ways.waits
         note: ways.note
-        noteBelow: ways.even
-        noteAside: ways.fills && !ways.halved
         Accessible.description: ways.reason
         words: ways.label
         focus: true
@@ -139,16 +165,17 @@ FocusScope {
         x: Theme.across(ways.halved ? 0 : ways.width - width - (ways.beside ? go.width + Theme.gap : 0), width, ways.width)
         y: ways.level ? go.y : 0
         height: ways.even ? go.height : implicitHeight
-        quiet: !ways.even || ways.quiet
-        horizontalPadding: ways.halved ? ways.besideHalf(words) : ways.even ? ways.padding : 44 * Theme.unit
+        quiet: !ways.even
+        horizontalPadding: ways.abreast ? ways.aside(words) : ways.even ? ways.padding : 44 * Theme.unit
         // Two lines need less air above and below them.
-        verticalPadding: ways.level && wish > ways.spread ? 10 * Theme.unit : ways.halved && ways.besideHalf(words) > ways.padding ? 20 * Theme.unit : (tall - Math.ceil(line)) / 2
+        verticalPadding: ways.abreast && ways.aside(words) > ways.padding ? (ways.halved ? 14 : 10) * Theme.unit : (tall - Math.ceil(line)) / 2
         words: ways.other
         onClicked: ways.turnedDown()
     }
     BigButton {
         id: back
-        letters: Theme.onBack
+        // Not larger than the two beside it.
+        letters: ways.level ? Math.min(Theme.onBack, ways.letters) : Theme.onBack
         tall: Math.max(88 * Theme.unit, 36 * Theme.unit + 1.36 * Theme.body)
         objectName: "back"
         visible: ways.returns
@@ -157,7 +184,7 @@ FocusScope {
         y: ways.beside ? (ways.tallest - height) / 2 : ways.paired ? go.y + (go.height - height) / 2 : ways.height - height - ways.lower
         quiet: true
         words: ways.words["control-back"]
-        horizontalPadding: 40 * Theme.unit
+        horizontalPadding: (ways.even && !ways.fills ? 28 : 40) * Theme.unit
         onClicked: ways.kiosk.goBack()
     }
 }

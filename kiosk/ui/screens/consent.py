@@ -118,13 +118,14 @@ class ConsentScreen(QObject):
         return self._page is not None and not self.needed
 
     @Property(str, notify=marked)
-    def waiting(self) -> str:
-        """Return what is still to be ticked to take part; empty if nothing is."""
-        return self._catalogue.text("consent-waits", number=len(self.needed)) if self.needed else ""
+    def asked(self) -> str:
+        """Return what is to be ticked to take part, also once it is; empty if nothing has to be."""
+        required = frozenset() if self._page is None else self._page.required
+        return self._catalogue.text("consent-waits", number=len(required)) if required else ""
 
     @Property(str, notify=marked)
     def toGo(self) -> str:  # noqa: N802 - QML's convention
-        """Return the same in two or three words, for the button itself."""
+        """Return how many of these are still to be ticked; empty if none is."""
         return self._catalogue.text("consent-to-go", number=len(self.needed)) if self.needed else ""
 
     @Slot(str, bool)

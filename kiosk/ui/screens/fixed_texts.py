@@ -16,7 +16,6 @@ FIXED = (
     "consent-optional",
     "consent-agreed",
     "consent-missing",
-    "consent-ready",
     "consent-choose",
     "consent-agree",
     "consent-decline",

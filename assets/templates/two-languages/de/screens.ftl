@@ -36,21 +36,19 @@ consent-required = nötig
 consent-optional = wie du möchtest
 consent-agreed = einverstanden
 consent-missing = Bitte kreuze das an, wenn du teilnehmen möchtest.
-# Above the way on, as long as boxes that are needed have no tick.
+# Above the boxes that are needed.
 consent-waits =
     { $number ->
         [one] Kreuze das nötige Kästchen an, um teilzunehmen
        *[other] Kreuze die { $number } nötigen Kästchen an, um teilzunehmen
     }
-# Within the way on, as long as boxes that are needed have no tick.
+# Above both answers, as long as boxes that are needed have no tick.
 consent-to-go =
     { $number ->
-        [one] Noch ein Kästchen
-       *[other] Noch { $number } Kästchen
+        [one] Zur Teilnahme noch ein Kästchen
+       *[other] Zur Teilnahme noch { $number } Kästchen
     }
-# In its place, once all of them have one.
-consent-ready = Mehr ist nicht nötig.
-# After that, or in the helper's bubble. It must favour neither answer.
+# In its place, once all of them have one. It must favour neither answer.
 consent-choose = Wähle jetzt unten.
 consent-agree = Ich nehme teil
 consent-decline = Spielen ohne Teilnahme
