@@ -262,6 +262,17 @@ def texts(booth: Booth) -> dict[str, QQuickItem]:
     return {str(item.property("text")): item for item in items(booth.app.window.contentItem())}
 
 
+def parts(booth: Booth, name: str, inside: str = "DebriefView") -> list[QRectF]:
+    """Return where the parts of this kind are in the window, as they follow each other."""
+    return [bounds(part) for part in kinds(booth, name, inside)]
+
+
+def kinds(booth: Booth, name: str, inside: str = "DebriefView") -> list[QQuickItem]:
+    """Return the parts of this kind that are seen."""
+    shown = [item for item in items(booth.app.window.contentItem()) if lies_in(item, inside)]
+    return [item for item in shown if item.metaObject().className().startswith(f"{name}_")]
+
+
 @pytest.mark.parametrize("last", ["It is no test\nYou can ask us.", f"It is no test\nYou {'can ' * 40}ask us."])
 def test_two_points_stand_on_cards_between_plain_lines_and_the_helper_says_the_fifth_if_it_is_short(
     booth: Booth, qtbot: QtBot, last: str
@@ -271,15 +282,20 @@ def test_two_points_stand_on_cards_between_plain_lines_and_the_helper_says_the_f
     shown_at(booth, qtbot, "debrief", 1920, 1080)
     written = texts(booth)
 
+    # A plain one has its text in the same line; where one has no room there, all that follow are one paragraph.
+    joined = "Point 3. This is short. " + last.replace("\n", ". ")
+    starts = ("Point 0.", "Point 1", "Point 2", "Point 3." if len(last) < 130 else joined)
+
     def place(number: int) -> QPointF:
-        # A plain one has its text in the same line.
-        return written[f"Point {number}" + ("." if number in {0, 3} else "")].mapToScene(QPointF(0, 0))
+        return written[starts[number]].mapToScene(QPointF(0, 0))
 
     qtbot.waitUntil(lambda: place(0).x() == place(3).x() < place(1).x() < place(2).x())
     qtbot.waitUntil(lambda: place(0).y() < place(1).y() == place(2).y() < place(3).y())
-    assert place(1).y() - place(0).y() < 2 * written["Point 0."].height()
+    (lead, *cards) = parts(booth, "PointCard")[:3]
+    assert cards[0].top() == cards[1].top() < lead.bottom() + 80
     # A click on it in the preview finds the whole point.
     assert written["Point 0."].parentItem().property("text") == page.paragraphs[0]
+    assert page.paragraphs[3] in written
     said = "It is no test. You can ask us."
     assert (said in written and lies_in(written[said], "Bubble")) == (len(last) < 130)
 
@@ -298,9 +314,10 @@ def test_on_an_upright_page_two_points_stand_on_cards_with_their_drawings_above_
     assert place("Point 0.").y() < place("Point 1").y()
     assert place("Point 3.").y() < place("It is no test.").y()
     # The words begin where the drawing does, below it.
-    point = written["Point 1\nThis is short."]
-    assert place("Point 1").x() == point.mapToScene(QPointF(0, 0)).x()
-    assert place("Point 1").y() > point.mapToScene(QPointF(0, 0)).y() + 110
+    drawing = parts(booth, "PointDrawing")[0]
+    assert drawing.height() >= 120
+    assert place("Point 1").x() == drawing.left()
+    assert place("Point 1").y() > drawing.bottom()
 
 
 @pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])
@@ -339,20 +356,49 @@ def test_no_shipped_debriefing_scrolls_in_letters_of_usual_size(
 
 @pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])
 @pytest.mark.parametrize("language", ["en", "it", "es"])
-def test_the_shipped_debriefing_is_about_its_two_versions_and_the_code_is_smaller(
+def test_the_shipped_debriefing_is_about_its_two_versions_drawn_with_cards_of_the_game(
     booth: Booth, qtbot: QtBot, language: str, width: int, height: int
 ) -> None:
     page = Information.of(ASSETS / "consent" / "study", language).debrief
+    found(booth, 3)
     booth.app.screens.debrief.show(page)
     booth.app.screens.debrief.give_code("WWWWW-WWWWW")
     shown_at(booth, qtbot, "debrief", width, height)
     written = texts(booth)
     for version in page.paragraphs[1:3]:
-        assert written[version.split("\n")[0]].property("font").pixelSize() >= 36
-        assert written[version].property("badge") >= 99
-    assert booth.item("qr").width() <= 300
+        assert written[version.split("\n")[0]].property("font").pixelSize() >= 44
+    seen, chance = kinds(booth, "CardFace")
+    assert (seen.property("up"), chance.property("up")) == (True, False)
+    assert seen.property("picture") == booth.app.screens.result.property("pictures")[0]
+    assert min(seen.width(), chance.width()) >= 120
+    assert 220 <= booth.item("qr").width() <= 290
     bubble = next(
         (item for text, item in written.items() if text and lies_in(item, "Bubble") and "Memo" not in text), None
     )
     assert (bubble is None) == (width < height)
     assert bubble is None or bubble.property("lineCount") <= 3
+
+
+def test_the_debriefing_on_a_wide_screen_has_letters_of_three_sizes(booth: Booth, qtbot: QtBot) -> None:
+    booth.app.screens.debrief.show(Information.of(ASSETS / "consent" / "study", "en").debrief)
+    booth.app.screens.debrief.give_code("WWWWW-WWWWW")
+    shown_at(booth, qtbot, "debrief", 1920, 1080)
+    shown = [item for item in items(booth.app.window.contentItem()) if lies_in(item, "DebriefPoints", "TakeHomeCard")]
+    letters = [item for item in shown if item.inherits("QQuickText") and item.property("text")]
+    assert {item.property("font").pixelSize() for item in letters} == {36, 48, 64}
+
+
+@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])
+def test_all_parts_of_the_debriefing_are_as_far_apart_as_each_other(
+    booth: Booth, qtbot: QtBot, width: int, height: int
+) -> None:
+    booth.app.screens.debrief.show(Information.of(ASSETS / "consent" / "study", "en").debrief)
+    booth.app.screens.debrief.give_code("WWWWW-WWWWW")
+    shown_at(booth, qtbot, "debrief", width, height)
+    lead, card, _, *lines = parts(booth, "PointCard")
+    (strip,) = parts(booth, "TakeHomeCard")
+    title, way = bounds(booth.item("page-title")), bounds(booth.item("continue"))
+    air = [lead.top() - title.bottom(), card.top() - lead.bottom(), lines[0].top() - card.bottom()]
+    air += [strip.top() - lines[-1].bottom(), way.top() - strip.bottom()]
+    assert air == pytest.approx([air[1]] * 5, abs=12)
+    assert min(air) >= 24

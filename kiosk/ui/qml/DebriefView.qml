@@ -9,6 +9,10 @@ PageFrame {
 
     required property DebriefScreen debrief
     required property string labName
+    required property ResultScreen result
+    required property AttractScreen attract
+    required property url cardBack
+    required property url cardShadow
 
     aside: sayable(debrief.lines)
 
@@ -46,7 +50,8 @@ PageFrame {
     }
     ScrollPane {
         id: pane
-        y: view.sink(height)
+        // Parts that are as far apart as each other are as far from the title as from the way on.
+        y: debriefSizes.paired ? Math.max(0, Math.min(2.5 * Theme.gap, (view.room - parts.height) / 2)) : view.sink(height)
         width: parent?.width ?? 0
         room: view.room
         more: view.words["scroll-more"]
@@ -55,8 +60,8 @@ PageFrame {
             // What there is beside both, or less than nothing.
             readonly property real free: view.room - texts.height - card.height
             // Points and card stand further apart than the points, by half of what is free.
-            readonly property real apart: Math.max(1, !debriefSizes.signed ? 1
-                : Math.min(debriefSizes.paired ? 1.6 : 2.5, free / Theme.gap / 2 + 0.33)) * Theme.gap
+            readonly property real apart: debriefSizes.paired ? Theme.gap + Math.max(0, Math.min(pointPairs.further, free - Theme.gap))
+                : Math.max(1, !debriefSizes.signed ? 1 : Math.min(2.5, free / Theme.gap / 2 + 0.33)) * Theme.gap
             // What is taken home is seen without scrolling.
             readonly property bool cardFirst: card.there && free < apart
             width: pane.width
@@ -69,6 +74,10 @@ PageFrame {
                 page: shape
                 pairs: pointPairs
                 sizes: debriefSizes
+                // One that the visitor found, if any.
+                picture: view.result.pictures[0] ?? view.attract.pictures[0] ?? ""
+                cardBack: view.cardBack
+                cardShadow: view.cardShadow
             }
             TakeHomeCard {
                 id: card

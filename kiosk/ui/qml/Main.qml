@@ -252,6 +252,10 @@ Window {
                 focus: true
                 debrief: root.debrief
                 labName: root.labName
+                result: root.result
+                attract: root.attract
+                cardBack: root.cardBack
+                cardShadow: root.cardShadow
                 kiosk: root.kiosk
                 words: root.words
             }

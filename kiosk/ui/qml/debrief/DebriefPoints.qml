@@ -10,6 +10,10 @@ Item {
     required property DebriefShape page
     required property PointPairs pairs
     required property DebriefSizes sizes
+    // A card that the visitor knows, and what cards look like.
+    required property url picture
+    required property url cardBack
+    required property url cardShadow
 
     // Short lines are read with less effort than long ones: in two columns where there is room.
     readonly property var columns: {
@@ -27,13 +31,13 @@ Item {
                 id: row
                 required property var modelData
                 required property int index
-                readonly property bool plain: modelData.length === 1
+                readonly property bool plain: index !== 1
                 // As high as the one that says more.
                 readonly property real tall: Math.max(...Array.from(children, each => (each as PointCard)?.said ?? 0))
-                topPadding: index === 0 ? 0 : texts.pairs.step(index) + texts.pairs.further
+                topPadding: texts.pairs.step(index, texts.pairs.further)
                 spacing: Theme.gap
                 Repeater {
-                    model: row.modelData
+                    model: row.plain ? [row.modelData] : row.modelData.map(point => [point])
                     PointCard {
                         width: row.plain ? texts.width : (texts.width - row.spacing) / 2
                         row: row.index
@@ -42,6 +46,9 @@ Item {
                         frame: texts.frame
                         page: texts.page
                         pairs: texts.pairs
+                        picture: texts.picture
+                        cardBack: texts.cardBack
+                        cardShadow: texts.cardShadow
                     }
                 }
             }

@@ -56,12 +56,13 @@ QtObject {
             .reduce((sum, part) => sum + Math.ceil(widths.plain(part, size) / width), 0)
     }
     // How high the card is about, with a code of this side and so much air, texts in these sizes, and the code in large
-    // letters.
+    // letters. Without a heading, what names the code is as large as what is said about it.
     function cardHeight(side: real, pad: real, heading: real, note: real, letters: real): real {
         const width = 0.95 * (column - (coded ? codeSide(side) + 1.5 * Theme.gap + 2 * rim : 0) - pad - Theme.gap)
-        const told = cardLines([kept], 1.08 * heading, width) * lineHeight(heading)
+        const headed = heading > 0 || !coded, caption = heading > 0 ? Theme.reading : note
+        const told = (headed ? cardLines([kept], 1.08 * Math.max(heading, note), width) * lineHeight(Math.max(heading, note)) : 0)
             + cardLines(notes, note, width) * lineHeight(note) + 0.2 * Theme.gap * (2 + notes.filter(text => text !== "").length)
-        const named = cardLines([codeName], Theme.reading, width) * lineHeight(Theme.reading) + (1.37 - codeAir) * letters
+        const named = cardLines([codeName], caption, width) * lineHeight(caption) + (1.37 - (heading > 0 ? codeAir : 0.15)) * letters
         return Math.max(coded ? codeSide(side) + 2 * rim : 0, told + (coded ? named : 0)) + 2 * pad
     }
 }

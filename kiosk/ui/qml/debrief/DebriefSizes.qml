@@ -19,17 +19,19 @@ QtObject {
     readonly property bool halved: !signed && !page.upright && page.points.length > 1
 
     // How large the points are, and how large the code is at most: it takes the height that is left.
-    readonly property real text: paired ? pairs.size : signed ? Theme.size(trial)
+    readonly property real text: paired ? pairs.body : signed ? Theme.size(trial)
         : (halved ? [36, 34, 32, 30].map(Theme.size).find(fitsInTwo) : undefined) ?? (tight ? Theme.small : Theme.reading)
     readonly property int trial: (page.upright ? [38, 36, 34, 32, 30, 29] : [32, 30, 29])
         .find(text => fits(Theme.size(text), note, apart)) ?? 26
-    readonly property real leastCode: (paired ? 240 : page.upright ? 270 : 230) * Theme.unit
+    readonly property real leastCode: (paired ? 235 : page.upright ? 270 : 230) * Theme.unit
     readonly property real mostCode: paired ? pairs.mostCode : 300 * Theme.unit
 
     // How large the texts on the card are: they are read at home, in a photograph.
-    readonly property real heading: paired ? pairs.heading : Theme.body
-    readonly property real note: paired ? pairs.note : [Theme.body, Theme.reading].find(
+    readonly property real heading: paired ? pairs.body : Theme.body
+    readonly property real note: paired ? pairs.body : [Theme.body, Theme.reading].find(
         size => fits(Theme.size(32), size, page.upright ? 0.5 : 0.4)) ?? Theme.small
+    // The code is named in dark letters on a page of three sizes.
+    readonly property real caption: paired ? pairs.body : Theme.reading
     readonly property real letters: paired ? pairs.letters : Theme.size(signed ? 72 : 64)
     // How far points below each other are apart, in gaps.
     readonly property real apart: (page.upright ? [1] : [1.1, 0.9, 0.7])

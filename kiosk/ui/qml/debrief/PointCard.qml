@@ -1,50 +1,96 @@
 // A point that stands beside another as a card, or alone in its row: then it is plain, and in one line where that has room.
+// Several plain ones are one paragraph.
+pragma ComponentBehavior: Bound
 import QtQuick
 import ".."
 
 Rectangle {
     id: card
 
+    // The points.
     required property var modelData
+    // There is none for a moment, while a page with fewer comes.
+    readonly property var point: modelData[0] ?? ({text: "", sign: ""})
     required property PageFrame frame
     required property DebriefShape page
     required property PointPairs pairs
     // Which row it stands in.
     required property int row
     required property bool plain
+    // A card that the visitor knows, and what cards look like.
+    required property url picture
+    required property url cardBack
+    required property url cardShadow
     // How high what the row says is, and what this one says.
     required property real tall
-    readonly property real said: runsOn ? line.height : point.height
+    readonly property real said: runsOn ? line.height : flows ? flow.height
+        : plain ? words.height
+        : pairs.above ? pairs.side + 0.5 * Theme.gap + words.height : Math.max(pairs.side, words.height)
 
-    readonly property real size: plain ? pairs.plainSize(modelData.text, row, pairs.size) : pairs.size
-    readonly property bool runsOn: plain && pairs.runsOn(modelData.text, size)
-    readonly property real inset: plain ? 0 : pairs.inset
+    // A plain one that does not lead is a paragraph, if it is no line.
+    readonly property bool flows: plain && row > 0 && !pairs.runOn(pairs.size)
+    readonly property real size: !plain ? pairs.size : flows ? pairs.body : pairs.plainSize(point.text, row, pairs.size)
+    readonly property bool runsOn: plain && !flows && pairs.runsOn(point.text, size)
+    readonly property real inset: plain ? 0 : Theme.gap
 
-    height: tall + 2 * inset
+    height: plain ? tall : Math.max(tall, pairs.least) + 2 * inset
     radius: Theme.radius
     color: plain ? "transparent" : Theme.white
     border { color: Theme.edge; width: plain ? 0 : 3 * Theme.unit }
+    PointDrawing {
+        id: drawing
+        visible: !card.plain
+        x: Theme.across(card.inset, width, card.width)
+        y: card.pairs.above ? card.inset : (card.height - height) / 2
+        width: card.pairs.side
+        sign: card.point.sign
+        ofCards: card.pairs.ofCards
+        picture: card.picture
+        back: card.cardBack
+        shadow: card.cardShadow
+    }
     SignedLine {
-        id: point
-        visible: !card.runsOn
-        x: card.plain ? 0 : card.pairs.insetAcross
-        y: card.inset
-        width: card.width - 2 * x
-        text: card.modelData.text
-        sign: card.plain ? "" : card.modelData.sign
-        badge: card.pairs.badge * size
-        above: card.pairs.above
-        size: card.size
+        id: words
+        readonly property real indent: card.plain || card.pairs.above ? 0 : card.pairs.side + Theme.gap
+        visible: !card.runsOn && !card.flows
+        x: Theme.across(card.inset + indent, width, card.width)
+        y: card.inset + (card.plain ? 0 : card.pairs.above ? card.pairs.side + 0.5 * Theme.gap
+            : (card.height - 2 * card.inset - card.tall) / 2 + Math.max(0, (card.pairs.side - height) / 2))
+        width: card.width - indent - 2 * card.inset
+        text: card.point.text
+        leadSize: card.size
+        size: card.pairs.bodyOf(card.size)
         leading: card.page.leading
         strong: card.page.isHeading(text)
     }
-    Item {
+    Balanced {
+        id: flow
+        visible: card.flows
+        width: parent.width
+        text: card.modelData.map(point => card.frame.sentences(point.text).join(" ")).join(" ")
+        font.pixelSize: card.size
+        horizontalAlignment: Text.AlignLeft
+    }
+    // A whole point, which is found by it in the preview, about where it stands.
+    component Whole: Item {
+        required property string text
+        width: card.width
+    }
+    Repeater {
+        model: card.flows ? card.modelData : []
+        Whole {
+            required property var modelData
+            required property int index
+            text: modelData.text
+            y: index * height
+            height: flow.height / card.modelData.length
+        }
+    }
+    Whole {
         id: line
-        // The whole point, which is found by it in the preview.
-        readonly property string text: card.modelData.text
         readonly property var parts: card.frame.sentences(text)
         visible: card.runsOn
-        width: card.width
+        text: card.point.text
         height: heading.height
         PlainText {
             id: heading

@@ -26,8 +26,9 @@ Rectangle {
     visible: there
     height: there ? Math.max(pictureHeight, told.height) + 2 * pad : 0
     radius: Theme.radius
-    color: Theme.white
-    border { color: Theme.edge; width: 3 * Theme.unit }
+    // Below two cards it is a quiet strip.
+    color: sizes.paired ? Theme.shelf : Theme.white
+    border { color: Theme.edge; width: sizes.paired && !Theme.highContrast ? 0 : 3 * Theme.unit }
 
     component Note: Balanced {
         width: told.width
@@ -73,7 +74,7 @@ Rectangle {
         }
         spacing: 0.2 * Theme.gap
         Note {
-            text: card.page.kept
+            text: card.sizes.paired && card.coded ? "" : card.page.kept
             font { pixelSize: card.sizes.heading; bold: true }
         }
         // What the code is called stands small over it, close to it.
@@ -82,16 +83,19 @@ Rectangle {
             PlainText {
                 width: told.width
                 text: card.page.codeName
-                font.pixelSize: Theme.reading
+                // In one line, if that makes it only a little smaller.
+                font.pixelSize: [1, 0.95, 0.9].map(share => share * card.sizes.caption)
+                    .find(size => card.page.widths.plain(text, size) <= 0.97 * told.width) ?? card.sizes.caption
                 horizontalAlignment: Text.AlignLeft
                 wrapMode: Text.Wrap
-                color: Theme.faintInk
+                color: card.sizes.paired ? Theme.ink : Theme.faintInk
             }
             PlainText {
                 objectName: "code"
                 width: told.width
-                // Its letters have much air above them.
-                topPadding: -card.page.codeAir * font.pixelSize
+                // Its letters have much air above them, and some below.
+                topPadding: -(card.sizes.paired ? 0.1 : card.page.codeAir) * font.pixelSize
+                bottomPadding: card.sizes.paired ? -0.15 * Theme.gap : 0
                 text: card.debrief.code
                 horizontalAlignment: Text.AlignLeft
                 font { pixelSize: card.sizes.letters; bold: true; letterSpacing: 4 * Theme.unit }
