@@ -167,6 +167,8 @@ def test_the_line_is_large_and_close_above_the_answers_and_clear_of_the_boxes(
     if size[0] > size[1]:
         back = place(booth.item("back"))
         assert max(back.left() - both.right(), both.left() - back.right()) >= 46
+        # Two lines of words reach a little below the row.
+        assert 1080 - both.bottom() == pytest.approx(40, abs=5)
     else:
         for heading, above in (("consent-waits", None), ("consent-optional", "purpose-store")):
             letters = painted(booth.item(heading))

@@ -47,8 +47,9 @@ FocusScope {
     // The middle of the capitals of the title's last line, as seen from the content, and whether it is the only one.
     readonly property real titleMiddle: heading.y + heading.height - capitals.descent - 0.36 * heading.font.pixelSize - body.y
     readonly property bool titleInOneLine: heading.lineCount === 1
-    readonly property real above: 2 * Theme.gap
-    readonly property real below: (width < height ? 1.5 : 1) * Theme.gap
+    // A wide page keeps about as far from the upper edge as from the lower one: a title has air above its capitals.
+    readonly property real above: (width < height ? 48 : 32) * Theme.unit
+    readonly property real below: (width < height ? 36 : 40) * Theme.unit
 
     // How far below the title a content of this height stands: a little lower where there is much room.
     function sink(tall: real): real {
