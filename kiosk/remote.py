@@ -196,7 +196,7 @@ _ALARMS = {
     "robot_lost": "the robot is lost",
     "voice_lost": "no sentence is heard",
     "disk_low": "the disk has not enough room for another hour",
-    "early_exits": "three visitors in a row left early",
+    "early_exits": "three sessions in a row ended early",
     "restarted": "the kiosk failed and was started again",
     "clock_changed": "the clock was changed",
     "backup_old": "the last copy is older than a day",

@@ -1,4 +1,7 @@
-"""The panel's first page on a busy day: no word is broken, no number wraps, and rows stand equally far apart."""
+"""The panel's first page on a busy day: no word is broken, no number wraps, and rows stand equally far apart.
+
+Both pages have large letters, and need no scrolling during a session.
+"""
 
 from __future__ import annotations
 
@@ -14,9 +17,11 @@ from PySide6.QtQuick import QQuickItem
 from PySide6.QtTest import QTest
 
 from kiosk.config import Settings
+from kiosk.experiment.experimenter import shortcuts
 from kiosk.study.loader import read_study
 from kiosk.ui.experimenter.health import HealthLine
 from kiosk.ui.experimenter.panel import WORDS
+from kiosk.ui.experimenter.panel_rows import shortcut_rows
 from kiosk.ui.experimenter.view_model import Row
 from kiosk.ui.simulated_visitor import find_item, lay_out
 from kiosk.ui.window import Window
@@ -304,8 +309,11 @@ def test_warnings_in_two_columns_have_one_line_each(
 
 
 @pytest.mark.parametrize("language", sorted(CATALOGUES))
-@pytest.mark.parametrize("size", LAYOUTS)
-def test_a_session_with_three_matters_needs_no_scrolling(window: Window, language: str, size: tuple[int, int]) -> None:
+@pytest.mark.parametrize("size", [*LAYOUTS, (800, 1280)])
+@pytest.mark.parametrize("listed", [False, True])
+def test_a_session_with_three_matters_needs_no_scrolling(
+    window: Window, language: str, size: tuple[int, int], *, listed: bool
+) -> None:
     calm, busy, told = calm_day(language), busy_day(language), CATALOGUES[language].text
     copy = HealthLine(
         told("console-database"),
@@ -315,8 +323,66 @@ def test_a_session_with_three_matters_needs_no_scrolling(window: Window, languag
         is_due=True,
     )
     health = busy["health"] | {"matters": [*busy["health"]["matters"], asdict(copy)]}
-    show(window, language, size, **calm | {"health": health, "choices": busy["choices"]})
+    day = busy if listed else calm
+    show(window, language, size, **day | {"health": health, "choices": busy["choices"]})
     (today,) = of_kind(window.shown.contentItem(), "PanelToday")
     assert today.height() <= today.property("seen")
     (button,) = [item for item in items(today) if item.objectName() == "action-backup"]
     assert lies_in(button, "PanelNotice")
+
+
+def second_page(language: str, *, robot: bool, deviations: int) -> dict[str, Any]:
+    """Return what the second page shows of a study with two conditions and three languages."""
+    busy, told = busy_day(language), CATALOGUES[language].text
+
+    def labelled(*labels: str) -> list[dict[str, str]]:
+        return [{"value": label, "label": label} for label in labels]
+
+    lines = (
+        HealthLine(told("console-policy"), "tom-2 · 3f2a91c0"),
+        HealthLine(told("console-study"), "A memory game · 5a0c1b22"),
+        HealthLine(told("console-screen"), "1920 x 1080, 60 Hz, 100 %"),
+        HealthLine(told("console-remote"), told("console-remote-there")),
+    )
+    noted = {
+        "when": "09:12",
+        "words": told("console-note-session-aborted", what=told("console-stage-game")),
+        "reason": told("console-reason-technical"),
+    }
+    return {
+        "health": busy["health"] | {"more": [asdict(line) for line in lines]},
+        "choices": busy["choices"]
+        | {
+            "conditions": labelled(told("console-automatic"), "A", "B"),
+            "embodiments": labelled(told("console-robot"), told("console-avatar")) if robot else [],
+            "languages": labelled("English", "Español", "Italiano"),
+            "volumes": labelled("20 %", "40 %", "60 %", "80 %", "100 %"),
+            "volume": "80 %",
+        },
+        "records": busy["records"]
+        | {
+            "deviations": [noted] * deviations,
+            "more": told("console-deviations-more", number=3) if deviations > 4 else "",
+        },
+    }
+
+
+@pytest.mark.parametrize("language", sorted(CATALOGUES))
+@pytest.mark.parametrize("size", [*LAYOUTS, (800, 1280)])
+@pytest.mark.parametrize(("robot", "deviations"), [(False, 2), (True, 2), (True, 5)])
+def test_the_second_page_has_large_letters_and_needs_no_scrolling(
+    window: Window, language: str, size: tuple[int, int], *, robot: bool, deviations: int
+) -> None:
+    told = CATALOGUES[language]
+    window.screens.experimenter.parts[2].list_shortcuts(shortcut_rows(shortcuts(Settings().shortcuts), told))
+    show(window, language, size, **second_page(language, robot=robot, deviations=deviations))
+    view = find_item(window.shown.contentItem(), "panel")
+    assert view is not None
+    view.setProperty("onToday", 0)
+    lay_out(window.shown)
+    (page,) = of_kind(window.shown.contentItem(), "PanelNext")
+    assert page.height() <= page.property("seen")
+    unit = min(min(size) / 1080, max(size) / 1920)
+    drawn = {text.property("font").pixelSize() for text in texts(page)}
+    assert min(drawn) >= int((26 if robot else 28) * unit)
+    view.setProperty("onToday", 1)

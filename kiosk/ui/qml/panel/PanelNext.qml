@@ -12,22 +12,81 @@ Item {
     required property real space
     readonly property var words: panel.words
     readonly property var choices: panel.choices
-    // As large as on the first page.
-    readonly property real size: (wide ? 1.15 : 1) * Theme.dense
+    // How much of it is seen at once.
+    required property real seen
+    // As large as on the first page: as large as goes, as long as the page does not scroll for it. Before letters get
+    // smaller, the answers stand closer. In whole pixels, as letters are drawn.
+    readonly property real usual: (wide ? 1.15 : 1) * Theme.dense
+    readonly property list<real> sizes: Theme.textSize > 1.15 ? [] : [30, 29, 28, 27, 26].map(each => Math.round(each * Theme.unit)).filter(each => each > usual)
+    readonly property real size: sizes.find(each => deep(each, true) <= seen) ?? usual
+    readonly property bool close: deep(size, false) > seen
     readonly property real crown: names.visible ? names.height : 0
+    readonly property real half: wide ? Math.floor((width - space) * 0.5) : width
 
     height: wide ? Math.max(left.height, right.height) : left.height + space + right.height
+
+    function tall(close: bool): real {
+        return (close ? 68 : 80) * Theme.unit
+    }
+    function apart(close: bool): real {
+        return (!close ? 22 : wide ? 14 : 8) * Theme.unit
+    }
+    // How many rows the answers to a question have in so much width: each as wide as if it were chosen.
+    function rowsOf(options: var, size: real, width: real): int {
+        let rows = 1, end = 0
+        for (const option of options) {
+            const each = Math.max(92 * Theme.unit, wordWidths.bold(option.label, size) + 38 * Theme.unit)
+            rows += end > 0 && end + each > width ? 1 : 0
+            end = (end > 0 && end + each <= width ? end : 0) + each + Math.round(9 * Theme.unit)
+        }
+        return rows
+    }
+    // How high the page is at least with letters of this size, with the answers closer or not.
+    function deep(size: real, close: bool): real {
+        const width = half - 2 * later.inset, records = panel.records, step = 10 * Theme.unit
+        const line = Math.ceil(letters.height * Math.round(size) / 100)
+        const headed = (title, aside, crown) => Math.max(crown, Math.ceil(wordWidths.lines(title, 1.12 * size, width - aside) * 1.12 * line)) + later.edges + 1
+        const listed = (counts, title, crown) => headed(title, 0, crown) + counts.reduce((sum, each) => sum + each * line, 0) + Math.max(0, counts.length - 1) * step
+        const crown = choices.conditions.length > 0 ? Math.max(58 * Theme.unit, line + 18 * Theme.unit) : 0
+        const asked = [["condition", choices.conditions], ["embodiment", choices.embodiments], ["language", choices.languages], ["volume", choices.volumes]].filter(([_, options]) => options.length > 0)
+        const aside = crown > 0 ? Math.min(0.6 * half, wordWidths.plain(names.words, size) + 38 * Theme.unit) + 0.5 * Theme.gap : 0
+        const chosen = headed(words["console-next-session"], aside, crown) + (asked.length - 1) * apart(close)
+            + asked.reduce((sum, [name, options]) => {
+                const rows = rowsOf(options, size, width)
+                return sum + wordWidths.plainLines(words["console-" + name], size, width) * line + 8 * Theme.unit
+                    + rows * Math.max(tall(close), line + 18 * Theme.unit) + (rows - 1) * Math.round(9 * Theme.unit)
+            }, 0)
+        const booth = listed(panel.health.more.map(each => {
+            const named = Math.min(0.29 * width, 6.5 * size)
+            return Math.max(wordWidths.lines(each.name, size, named), wordWidths.plainLines(each.message, size, width - named - 1.25 * size - 2 * step))
+        }), words["console-booth"], 0)
+        const noted = records.deviations.map(each => wordWidths.plainLines(each.words + " · " + each.reason, size, width - wordWidths.plain(each.when, size) - step))
+        const day = listed([...noted, ...(noted.length === 0 || records.more !== "" ? [1] : [])], words["console-deviations"], wide ? crown : 0)
+        const keys = Math.max(0, ...panel.shortcuts.rows.map(row => wordWidths.bold(row.keys, size)))
+        const told = panel.shortcuts.rows.map(row => wordWidths.plainLines(row.words, size, (width - Theme.gap) / 2 - keys - 16 * Theme.unit))
+        const known = told.length > 0 ? listed(told.filter((_, at) => at % 2 === 0).map((each, at) => Math.max(each, told[2 * at + 1] ?? 0)), panel.shortcuts.title, 0) + space : 0
+        const after = day + space + known + Math.max(tall(close), 1.45 * size + 18 * Theme.unit)
+        const before = chosen + space + booth
+        return Math.ceil(wide ? Math.max(before, after) : before + space + after)
+    }
+    WordWidths {
+        id: wordWidths
+    }
+    FontMetrics {
+        id: letters
+        font.pixelSize: 100
+    }
 
     component Choice: PanelChoice {
         size: next.size
         lettering: next.size
-        least: 80 * Theme.unit
+        least: next.tall(next.close)
         broad: 92 * Theme.unit
     }
 
     Column {
         id: left
-        width: next.wide ? Math.floor((next.width - next.space) * 0.5) : next.width
+        width: next.half
         spacing: next.space
         PanelSection {
             id: later
@@ -36,7 +95,7 @@ Item {
             aside: names.visible ? names.width : 0
             crown: next.crown
             size: next.size
-            apart: 22 * Theme.unit
+            apart: next.apart(next.close)
             Choice {
                 width: parent.width
                 action: "condition"
@@ -53,6 +112,8 @@ Item {
                 anchors { top: parent.top; right: parent.right; margins: later.inset; topMargin: later.above }
                 width: Math.min(Math.ceil(implicitWidth), Math.floor(0.6 * later.width))
                 visible: next.choices.conditions.length > 0
+                least: 58 * Theme.unit
+                font.pixelSize: Math.max(Theme.dense, 0.95 * next.size)
                 words: next.choices.named ? next.words["console-names-hide"] : next.words["console-names-show"]
                 onClicked: next.panel.wish("names", "")
             }
@@ -127,7 +188,7 @@ Item {
             words: next.words["console-quit"]
             drawing: "M12 2.5 V11.5 M7.2 5.8 A8 8 0 1 0 16.8 5.8"
             grave: true
-            least: 80 * Theme.unit
+            least: next.tall(next.close)
             font.pixelSize: next.size
             horizontalPadding: 24 * Theme.unit
             onClicked: next.panel.wish("quit", "")

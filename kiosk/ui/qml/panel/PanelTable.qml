@@ -62,7 +62,7 @@ PanelSection {
     }
     // How many lines the words in a row need.
     function most(cells: var): int {
-        return Math.max(...cells.map((cell, at) => broken(cell, (wide(at) - (at === 0 ? before : 0)) * 100 / written)))
+        return Math.max(...cells.map((cell, at) => broken(cell, (wide(at) - (at === 0 ? before : 0)) * 100 / Math.round(written))))
     }
     function long(text: string, strong: bool): real {
         return (strong ? bold : plain).advanceWidth(text)
@@ -98,10 +98,12 @@ PanelSection {
     function barred(size: real): real {
         return 2.8 * size
     }
+    // Letters are drawn in whole pixels.
     function needs(lines: int, size: real): var {
+        const drawn = Math.round(size)
         return titles.map((title, at) => Math.ceil(2 + 2 * Theme.unit + (marked && at === 0 ? 1.4 * size : 0) + Math.max(
-            narrow(title, lines) * size / 100,
-            ...shown.rows.map(row => (row.cells[at].share === undefined ? 0 : barred(size)) + narrow(row.cells[at], lines) * size / 100))))
+            narrow(title, lines) * drawn / 100,
+            ...shown.rows.map(row => (row.cells[at].share === undefined ? 0 : barred(size)) + narrow(row.cells[at], lines) * drawn / 100))))
     }
     // Whether all its cells have one line if they are written so large on a card so wide. Small letters are a little wider
     // than large ones made smaller.

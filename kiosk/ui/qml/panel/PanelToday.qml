@@ -48,7 +48,7 @@ Item {
     readonly property bool calm: !wide && tabled && panel.health.matters.length < 4 && panel.alarms.length === 0 && panel.records.resumable.length === 0 && !panel.choices.canBeNext && !(panel.choices.onBreak ?? false)
     readonly property real bare: first.height + 4 * space + actions.bare + health.frame + health.packed + pairs * 10 * Theme.unit
         + counts.frame + counts.packed + counts.last + sessions.frame + sessions.packed + (rows + 2) * 10 * Theme.unit + 4 * Theme.unit
-    readonly property real spread: calm ? Math.floor(Math.max(-6 * Theme.unit, Math.min(24 * Theme.unit, (seen - bare) / (rows + 1 + actions.lines + pairs)))) : 0
+    readonly property real spread: calm ? Math.floor(Math.max(-8 * Theme.unit, Math.min(24 * Theme.unit, (seen - bare) / (rows + 1 + actions.lines + pairs)))) : 0
 
     readonly property bool tabled: Theme.textSize <= 1.15
     // On an upright screen all second columns begin in line.

@@ -144,6 +144,7 @@ FocusScope {
                 width: parent.width
                 panel: view.panel
                 wide: view.wide
+                seen: pane.height
                 space: view.space
             }
         }
