@@ -42,6 +42,7 @@ PageFrame {
     PointPairs {
         id: pointPairs
         page: shape
+        taken: texts.taken + card.height
     }
     DebriefSizes {
         id: debriefSizes

@@ -22,12 +22,19 @@ Item {
     }
 
     height: sizes.paired ? rows.height : list.height
+    // How high all rows are, without what is between them.
+    readonly property real taken: Array.from(rows.children, row => (row as PointRow)?.own ?? 0).reduce((sum, each) => sum + each, 0)
+
+    component PointRow: Row {
+        // How high it is below its padding.
+        readonly property real own: Math.max(0, ...Array.from(children, each => (each as PointCard)?.height ?? 0))
+    }
 
     Column {
         id: rows
         Repeater {
             model: texts.sizes.paired ? texts.pairs.rows : []
-            Row {
+            PointRow {
                 id: row
                 required property var modelData
                 required property int index

@@ -26,7 +26,12 @@ QtObject {
         return Math.min(Theme.size(36), size)
     }
     // All parts of the page are as far apart as each other, also from the title and the way on: this is added to a gap.
-    readonly property real further: Math.max(0, Math.min(2.2 * Theme.gap, (page.room - needed(size, mostCode)) / (rest.length > 0 ? 5 : 4)))
+    // By what their heights have become, as what was reckoned with is a little more.
+    required property real taken
+    readonly property real further: {
+        const between = rest.length > 0 ? 3 : 2, closer = 0.2 * Theme.gap * Math.max(0, rows.length - 3)
+        return Math.max(0, Math.min(2.2 * Theme.gap, (page.room - taken - closer - between * Theme.gap) / (between + 2)))
+    }
 
     readonly property real letters: Theme.size(page.upright ? 60 : 64)
     readonly property real pad: 0.5 * Theme.gap

@@ -20,7 +20,7 @@ Rectangle {
     readonly property real pad: sizes.pad
     readonly property real rim: page.rim
     // As much of the height as the text leaves, so that a page that fits does not scroll.
-    readonly property real side: Math.max(sizes.leastCode, Math.min(sizes.mostCode, room - 2 * pad - 2 * rim))
+    readonly property real side: sizes.paired ? sizes.mostCode : Math.max(sizes.leastCode, Math.min(sizes.mostCode, room - 2 * pad - 2 * rim))
     readonly property real pictureHeight: picture.height + 2 * rim
 
     visible: there
