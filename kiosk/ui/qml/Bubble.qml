@@ -11,7 +11,8 @@ Item {
     property bool thinks: false         // whether it is still looking for words
     property bool calls: false          // whether it is to be read from far away
     property bool grows: false          // whether it has room for large words
-    property bool cheers: false         // whether the sentence is a cheer: large, bold and in the middle
+    property bool centred: false        // whether its lines and the speaker's name stand in the middle
+    property bool cheers: false         // whether the sentence is a cheer: large and bold
     property bool triumphs: false       // whether that is about the last pair: as large as fits
     property string outcome: ""         // what stands above one sentence, as large as a cheer
     property string outcomeOf: ""       // which sentence that is
@@ -51,9 +52,13 @@ Item {
     WordWidths {
         id: wordWidths
     }
+    // How far its words keep from its edges.
+    readonly property real inset: grows ? 60 * Theme.unit : Theme.gap
+    readonly property bool few: short || cheered || tells || (end !== "" && end === whole)
+    readonly property real pad: (grows && few && !triumphed ? 34 : 24) * Theme.unit
     // How much of its height is free above it.
     readonly property real free: sentence === "" ? height : box.y
-    readonly property real room: height - tail - tag - told.high - (hasSpeaker && !tells ? 3 : 2) * Theme.gap
+    readonly property real room: height - tail - tag - told.high - (hasSpeaker && !tells ? 1 : 0) * Theme.gap - 2 * pad
 
     LayoutMirroring.enabled: Theme.mirrored
     LayoutMirroring.childrenInherit: true
@@ -151,7 +156,7 @@ Item {
         id: box
         anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: bubble.tail }
         width: bubble.called === null ? bubble.width : bubble.called.wide + 2 * Theme.gap
-        height: words.high + ending.high + bubble.tag + told.high + 2 * Theme.gap
+        height: words.high + ending.high + bubble.tag + told.high + 2 * bubble.pad
         radius: Theme.radius
         color: Theme.white
         border.color: Theme.sea
@@ -161,11 +166,11 @@ Item {
             id: told
             readonly property real high: visible ? height : 0
             visible: bubble.tells
-            anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap; topMargin: Theme.gap + bubble.tag }
+            anchors { left: parent.left; right: parent.right; top: parent.top; margins: bubble.inset; topMargin: bubble.pad + bubble.tag }
             text: visible ? bubble.outcome : ""
             font { pixelSize: bubble.cheer; bold: true }
             color: Theme.sea
-            horizontalAlignment: Text.AlignHCenter
+            horizontalAlignment: words.horizontalAlignment
             wrapMode: Text.Wrap
             Accessible.role: Accessible.AlertMessage
         }
@@ -176,7 +181,7 @@ Item {
             readonly property real high: text === "" ? 0 : height + apart
             visible: text !== ""
             least: 0.75
-            anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap; topMargin: Theme.gap + bubble.tag + told.high }
+            anchors { left: parent.left; right: parent.right; top: parent.top; margins: bubble.inset; topMargin: bubble.pad + bubble.tag + told.high }
             text: bubble.share < 1 ? bubble.numbered : bubble.kept
             font { pixelSize: Math.round(bubble.louder * words.font.pixelSize); bold: true }
             color: Theme.sea
@@ -188,13 +193,13 @@ Item {
             id: words
             readonly property real high: text === "" && bubble.end !== "" ? 0 : height
             text: bubble.end === "" ? bubble.whole : bubble.whole.slice(0, -bubble.end.length).trim()
-            anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap; topMargin: Theme.gap + bubble.tag + told.high + ending.high }
+            anchors { left: parent.left; right: parent.right; top: parent.top; margins: bubble.inset; topMargin: bubble.pad + bubble.tag + told.high + ending.high }
             // What would not fit above the face is set smaller: half the size takes a quarter of the room.
             font.pixelSize: bubble.share >= 1 ? usual.font.pixelSize
                 : Math.max(Theme.size(0), Math.floor(usual.font.pixelSize * Math.max(bubble.share, 0.95 * Math.sqrt(bubble.share))))
             font.bold: bubble.cheered
             color: bubble.cheered ? Theme.sea : Theme.ink
-            horizontalAlignment: bubble.cheered || bubble.tells || bubble.short || (bubble.grows && bubble.end !== "") ? Text.AlignHCenter : LayoutMirroring.enabled ? Text.AlignLeft : undefined
+            horizontalAlignment: bubble.centred ? Text.AlignHCenter : LayoutMirroring.enabled ? Text.AlignLeft : undefined
             lineHeight: 1.12
             // Said once, as a whole, in the order in which it is spoken.
             Accessible.role: Accessible.AlertMessage
@@ -227,7 +232,8 @@ Item {
         }
         PlainText {
             id: name
-            anchors { left: parent.left; top: parent.top; leftMargin: Theme.gap; topMargin: 0.6 * Theme.gap }
+            anchors { left: parent.left; right: parent.right; top: parent.top; margins: bubble.inset; topMargin: 0.6 * bubble.pad }
+            horizontalAlignment: words.horizontalAlignment
             visible: bubble.speaker !== ""
             text: bubble.speaker
             font { pixelSize: Theme.small; bold: true }

@@ -327,7 +327,7 @@ Window {
         rests: root.kiosk.paused
         waits: root.kiosk.asks !== "" || root.kiosk.asksStillThere
         share: layout.faceShare
-        broad: !layout.wide
+        centred: layout.helperBelow && boardPage.visible
         calls: layout.accompanied && attractView.visible
         grows: layout.helperReach > 0
         lift: layout.helperLift

@@ -14,8 +14,8 @@ Item {
     property bool thinks: false
     // How much of the height the face has, where it speaks.
     property real share: 0.52
-    // Whether it has the width of an upright screen for what it says.
-    property bool broad: false
+    // Whether what it says stands in the middle, below the cards; beside a page, lines begin at one edge.
+    property bool centred: false
     // Whether it rests, with its eyes shut and in silence.
     property bool rests: false
     // Whether a question lies over everything: its face is then neither glad nor sad.
@@ -123,6 +123,7 @@ Item {
         speaker: panel.avatar.name
         calls: panel.calls
         grows: panel.grows
+        centred: panel.centred
         advice: sentence === panel.said ? panel.avatar.advice : panel.asideAdvice
         outcome: panel.outcome
         outcomeOf: panel.outcomeOf
