@@ -1,5 +1,6 @@
 // A card at its place on the board: it turns, shakes its head at a tap that does not count, and shows that it is found.
 import QtQuick
+import QtQuick.Shapes
 import Recollect
 import "."
 
@@ -42,15 +43,8 @@ Item {
     // The last pair stays forward, larger than its neighbours, in a frame of light. The others step back from it: their
     // frames get thin, and their pictures large.
     readonly property bool closes: boardState.last.includes(index)
-    // Side by side, the two share the line between them.
-    readonly property bool abuts: {
-        if (!closes)
-            return false
-        const [one, other] = boardState.last
-        const columns = boardLayout.columns
-        return Math.abs(one - other) === columns || (Math.abs(one - other) === 1 && Math.floor(one / columns) === Math.floor(other / columns))
-    }
-    readonly property real largest: abuts ? boardLayout.within(boardLayout.cell - 12 * Theme.unit, 1.08) : 1.08
+    // It laps no neighbour; side by side, the two share the line between them.
+    readonly property real largest: boardLayout.within(boardLayout.cell - 12 * Theme.unit, 1.08)
     property real proud: closes && (settles || !coming.running) ? 1 : 0
     // A pair that was just found keeps its size in its frame until the next move.
     property real fresh: boardState.latest.includes(index) && (settles || !coming.running) ? 1 : 0
@@ -101,6 +95,16 @@ Item {
     }
     onMissedChanged: if (missed && Theme.motion > 0) sigh.restart()
 
+    // In a marked row or column an open card lies apart from those that a hint means.
+    Rectangle {
+        objectName: "mat-" + place.index
+        visible: place.marked && place.up && !place.found
+        anchors.centerIn: parent
+        width: place.boardLayout.card + Math.min(16 * Theme.unit, place.boardLayout.cell - place.boardLayout.card)
+        height: width
+        radius: width * 0.13
+        color: Theme.white
+    }
     // A frame of light around the last pair.
     Rectangle {
         objectName: "last-" + place.index
@@ -145,7 +149,8 @@ Item {
         up: place.up
         shade: 1 - place.rest
         // A pair has its green frame instead, as soon as it has come forward.
-        rimShown: !place.found ? 1 : coming.running && !place.settles ? Math.max(0, 1 - place.forward) : 0
+        rimmed: 7 * Theme.unit
+        rimShown: place.missed && place.turning === 1 ? 0 : !place.found ? 1 : coming.running && !place.settles ? Math.max(0, 1 - place.forward) : 0
         prepares: place.prepares
         // Closed cards step back while a tap would not count, unless they are meant.
         opacity: place.boardState.speaking && !place.up && !place.marked ? Theme.held : 1
@@ -156,18 +161,28 @@ Item {
             * (1 + 0.16 * place.forward)
             * (1 + 0.09 * place.cheer)
     }
-    // These two are no pair; in a while they close again.
-    Rectangle {
+    // These two are no pair; in a while they close again. A line with gaps is not taken for that of a card that is chosen.
+    Loader {
         objectName: "missed-" + place.index
-        visible: place.missed && place.turning === 1
+        active: place.missed && place.turning === 1
+        visible: active
         anchors { centerIn: face; horizontalCenterOffset: face.shift }
-        width: 0.962 * face.width * face.scale + 6 * Theme.unit
+        width: 0.962 * face.width
         height: width
+        scale: face.scale
         rotation: face.rotation
-        radius: width * 0.12
-        color: "transparent"
-        // Much thicker than the rim of any open card, and not the colour of a hint.
-        border { color: Theme.faintInk; width: 12 * Theme.unit }
+        sourceComponent: Shape {
+            id: gaps
+            ShapePath {
+                fillColor: "transparent"
+                strokeColor: Theme.faintInk
+                strokeWidth: 8 * Theme.unit
+                strokeStyle: ShapePath.DashLine
+                dashPattern: [2.4, 1.8]
+                capStyle: ShapePath.FlatCap
+                PathRectangle { width: gaps.width; height: gaps.height; radius: 0.12 * gaps.width }
+            }
+        }
     }
     SequentialAnimation {
         id: coming

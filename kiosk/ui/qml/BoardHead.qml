@@ -89,9 +89,9 @@ Item {
     }
     Tray {
         id: tray
-        // It ends a little before the cards, clear of what shows how far the visit is; or as far from the way to the
-        // game as it begins from the words.
-        readonly property real end: !head.practises ? head.boardLayout.cardsEnd - 2.5 * Theme.gap
+        // It ends with the cards, clear of what shows how far the visit is; or as far from the way to the game as it
+        // begins from the words.
+        readonly property real end: !head.practises ? Math.min(head.boardLayout.cardsEnd, head.boardLayout.mostRight)
             : (head.boardLayout.skipsBelow ? head.width : skip.x) - Theme.gap
         x: head.broad ? head.width - head.boardLayout.side : head.upright ? head.boardLayout.headLeft
             : head.practises ? progress.x + progress.width + Theme.gap : moves.x + moves.width + Theme.gap

@@ -36,15 +36,18 @@ QtObject {
     readonly property real margin: (1 - 0.962 * share) / 2
     // How wide a card is that is seen in its full size.
     readonly property real card: 0.962 * share * cell
-    // Beside the numbers there is room for a mark's arrow.
-    readonly property real numbers: (upright ? 66 : 78) * Theme.unit
-    // On an upright screen, the room of the rows' numbers and their arrow beside the cards.
-    readonly property real gutter: (upright ? 50 : 0) * Theme.unit
+    // The room of the columns' numbers above the cards, and that of the rows' numbers beside them. Both stand close to
+    // the cards, as they name them; a mark's band reaches as far as they do.
+    readonly property real numbers: 66 * Theme.unit
+    readonly property real gutter: (upright ? 50 : 46) * Theme.unit
+    readonly property real numberSize: upright ? Theme.size(36) : Theme.body
+    readonly property real near: 24 * Theme.unit - margin * cell
+    readonly property real band: near + 0.72 * numberSize + 14 * Theme.unit
     // On an upright screen the cards and the numbers of their rows are together as wide as the helper's sentence, and
     // nearly as the screen: the cards are as large as that allows.
     readonly property real edge: 20 * Theme.unit
     readonly property real wide: width - 2 * edge
-    readonly property real widest: (upright ? wide - gutter : width - 2 * side - numbers - 2 * Theme.gap) / Math.max(1, columns)
+    readonly property real widest: (upright ? wide - gutter : width - 2 * side - gutter - 32 * Theme.unit - 2 * Theme.gap) / Math.max(1, columns)
 
     // The words above the cards. Upright, their line depends on no height.
     readonly property real wordsSize: upright && Theme.textSize <= 1.15 ? Theme.size(38) : Theme.body
@@ -60,25 +63,39 @@ QtObject {
     // The tray. On a wide screen it has two rows of larger places where the cards leave room for it.
     readonly property bool tall: height - (182 + 70) * Math.max(1, Theme.textSize) * Theme.unit - rows * widest > 70 * Theme.unit
     // On an upright screen it is a shelf.
-    readonly property int shelfLines: pairs > 12 ? 2 : 1
-    readonly property real shelfSlot: Math.floor(Math.min((pairs > 6 ? 86 : 74) * Theme.unit, wide / Math.max(1, Math.ceil(pairs / shelfLines))))
-    readonly property real shelf: wordsLine + shelfLines * shelfSlot + 8 * Theme.unit
+    // It has a second line, with room for both cards of a pair side by side, or larger places, where no card gets smaller.
+    readonly property real shelf: shelfOf(pairs > 12 ? 2 : 1, usualSlot)
+    readonly property real usualSlot: (pairs > 6 ? 86 : 74) * Theme.unit
+    readonly property bool doubled: upright && pairs > 6 && pairs <= 12 && spareBelow(shelfOf(2, usualSlot)) > 0.3 * apart
+    readonly property int shelfLines: pairs > 12 || doubled ? 2 : 1
+    readonly property real mostSlot: spareBelow(shelfOf(shelfLines, 86 * Theme.unit)) >= 0 ? 86 * Theme.unit : usualSlot
+    readonly property real shelfSlot: slotOf(shelfLines, mostSlot)
+    function slotOf(lines: int, most: real): real {
+        return Math.floor(Math.min(most, wide / Math.max(1, Math.ceil(pairs / lines))))
+    }
+    function shelfOf(lines: int, most: real): real {
+        return wordsLine + lines * slotOf(lines, most) + 8 * Theme.unit
+    }
     // It stands further from the columns' numbers than the cards do, as they name the cards; but no card gets smaller
     // by it.
     readonly property real apart: upright ? 30 * Theme.unit : 0
     readonly property int lines: upright ? shelfLines : tall ? 2 : 1
-    readonly property real strip: broad ? 0 : upright ? shelf : (tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
+    readonly property real strip: broad ? 0 : upright ? shelfOf(shelfLines, mostSlot) : (tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
     readonly property real trayHeight: upright ? lines * shelfSlot : strip - 8 * Theme.unit
     // The height of the words in one line, above the tray or beside it.
     readonly property real wordsHigh: upright ? wordsLine - 12 * Theme.unit - wordsApart : trayHeight
 
     // What stands above the cards and below them.
-    readonly property real footer: pillHeight + (upright ? 16 : 22) * Theme.unit + (practises && skipsBelow ? skipHeight + Theme.gap : 0)
-    readonly property real spare: Math.floor(height - lent - 20 * Theme.unit - strip - numbers - footer - rows * widest) - 1
+    readonly property real footer: pillHeight + (upright ? 16 : 14) * Theme.unit + (practises && skipsBelow ? skipHeight + Theme.gap : 0)
+    readonly property real spare: spareBelow(strip)
+    function spareBelow(strip: real): real {
+        return Math.floor(height - lent - 20 * Theme.unit - strip - numbers - footer - rows * widest) - 1
+    }
     // On an upright screen, what more there is lies below the tray: words and tray begin where those of the practice do.
     readonly property real lower: upright ? Math.max(0, Math.min(26 * Theme.unit, (spare - apart) / 5)) : 0
-    // Where much is left, the cards stand in the middle between the tray and a short sentence. A long one covers none.
-    readonly property real lowered: Math.max(0, Math.min(16 * Theme.unit, 0.3 * lent, spare - 2.5 * apart))
+    // Where much is left, the cards stand in the middle between the tray and a short sentence; below a tray of two lines,
+    // nearly so. A long sentence covers none.
+    readonly property real lowered: Math.max(0, Math.min(16 * Theme.unit, 0.3 * lent, spare - (doubled ? 0 : 2.5 * apart)))
     readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
         + Math.max(upright && Theme.textSize > 1.15 ? 18 * Theme.unit : 0, Math.min(apart + 5 * lower, spare))
         + lowered
@@ -105,8 +122,10 @@ QtObject {
     readonly property real tableHeight: cell * rows
     // A little away from what is said beside them: the outermost numbers or cards are as far from the window's edge as the
     // bubble is.
-    readonly property real tableX: Math.round((width - tableWidth + (upright ? gutter : numbers)) / 2 - 14 * Theme.unit * spoken)
-    readonly property real tableY: Math.round(header + numbers)
+    readonly property real tableX: Math.round((width - tableWidth + gutter) / 2 - 34 * Theme.unit * spoken)
+    // On a wide screen, what is left of the height lies above the numbers, clear of the words and the tray.
+    readonly property real dropped: upright ? 0 : Math.max(0, Math.min(24 * Theme.unit, height - header - numbers - footer - tableHeight))
+    readonly property real tableY: Math.round(header + numbers + dropped)
     // Where the cards themselves begin and end.
     readonly property real cardsBegin: tableX + margin * cell
     readonly property real cardsEnd: tableX + tableWidth - margin * cell

@@ -15,8 +15,6 @@ QtObject {
     readonly property int markRow: board.markRow
     readonly property int markColumn: board.markColumn
     readonly property bool marks: markRow >= 0 || markColumn >= 0
-    // The card that waits for its second; -1 for none.
-    readonly property int waits: board.waits
 
     // How many cards turn just now.
     property int turning: 0

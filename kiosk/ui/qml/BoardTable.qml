@@ -9,7 +9,6 @@ Item {
     required property BoardLayout boardLayout
     required property int markRow
     required property int markColumn
-    readonly property bool upright: boardLayout.upright
 
     x: boardLayout.tableX
     y: boardLayout.tableY
@@ -18,8 +17,9 @@ Item {
 
     component Number: PlainText {
         property bool marked: false
-        font { pixelSize: table.upright ? Theme.size(36) : Theme.body; bold: true }
-        color: marked ? Theme.deepAmber : Theme.faintInk
+        font { pixelSize: table.boardLayout.numberSize; bold: true }
+        // In a band of amber it is as dark as all other words.
+        color: !marked ? Theme.faintInk : table.markRow >= 0 && table.markColumn >= 0 ? Theme.deepAmber : Theme.ink
         // Every card's name tells its row and column.
         Accessible.ignored: true
     }
@@ -29,8 +29,7 @@ Item {
         Number {
             required property int index
             x: index * table.boardLayout.cell
-            // Above a mark's arrow, also in large letters.
-            y: Math.min(-table.boardLayout.numbers, -42 * Theme.unit - baselineOffset)
+            y: -table.boardLayout.near - baselineOffset
             width: table.boardLayout.cell
             text: index + 1
             marked: table.markColumn === index
@@ -41,14 +40,13 @@ Item {
         model: table.boardLayout.rows
         Number {
             required property int index
-            // Large letters begin nearer to the edge, clear of a mark's arrow.
-            x: -(table.upright ? table.boardLayout.gutter + 24 * Math.max(0, Theme.textSize - 1) * Theme.unit : table.boardLayout.numbers)
+            x: -table.boardLayout.gutter
             y: index * table.boardLayout.cell
-            width: table.boardLayout.numbers - (table.upright ? 0 : 30 * Theme.unit)
+            width: table.boardLayout.gutter + table.boardLayout.margin * table.boardLayout.cell
             height: table.boardLayout.cell
             text: index + 1
             marked: table.markRow === index
-            horizontalAlignment: table.upright ? Text.AlignLeft : Text.AlignHCenter
+            horizontalAlignment: Text.AlignHCenter
             verticalAlignment: Text.AlignVCenter
         }
     }

@@ -38,7 +38,7 @@ FocusScope {
         : pill.visible ? pill.y + pill.height : layout.tableY + layout.tableHeight
     // The middle of what a hint marks, in this item; from below, the end of a row where its number stands.
     readonly property point marked: Qt.point(
-        layout.tableX + (now.markColumn >= 0 ? (now.markColumn + 0.5) * layout.cell : layout.upright ? -0.5 * layout.numbers : layout.tableWidth * 0.75),
+        layout.tableX + (now.markColumn >= 0 ? (now.markColumn + 0.5) * layout.cell : layout.upright ? -0.5 * layout.gutter : layout.tableWidth * 0.75),
         layout.tableY + (now.markRow < 0 ? 0 : (now.markRow + 0.5) * layout.cell))
     // Whether a card turns, or a pair is on its way to the tray: what else moves on the screen had better wait.
     readonly property bool moves: now.turning > 0 || joy.under
@@ -136,7 +136,7 @@ FocusScope {
         id: pill
         // What comes next, until the assistant has something to say about it.
         asks: view.board.oneUp && now.open && !now.marks && !view.said && !view.told
-        readonly property real under: layout.tableY + layout.tableHeight + (layout.upright ? 14 : 8) * Theme.unit
+        readonly property real under: layout.tableY + layout.tableHeight + (layout.upright ? 14 : 4) * Theme.unit
         x: Math.round(Math.max(0, Math.min(view.width - width, layout.middle - width / 2)))
         // Above the face, where no sentence stands there.
         y: now.speaking || view.said ? under : Math.round(Math.max(under, view.faceAt - 1.5 * height))
@@ -147,17 +147,11 @@ FocusScope {
         upright: layout.upright
         most: view.width
     }
-    BoardTable {
-        boardLayout: layout
-        markRow: now.markRow
-        markColumn: now.markColumn
-        // At the end the pictures alone are looked at.
-        opacity: 1 - now.ended
-    }
     GridView {
         id: cards
         objectName: "board"
-        x: layout.tableX
+        // Upright, they stand in the middle once the numbers of their rows have gone.
+        x: layout.tableX - (layout.upright ? now.ended * layout.gutter / 2 : 0)
         y: layout.tableY
         width: layout.tableWidth
         height: layout.tableHeight
@@ -195,9 +189,8 @@ FocusScope {
             column: now.markColumn
             cell: layout.cell
             over: layout.over
-            arrow: (layout.upright ? 16 : 28) * Theme.unit
-            apart: (layout.upright ? 2 : 5) * Theme.unit
-            without: now.waits
+            above: layout.band
+            before: layout.gutter
         }
         delegate: BoardCard {
             board: view.board
@@ -209,6 +202,14 @@ FocusScope {
             prepares: view.prepares
             current: cards.activeFocus && cards.currentIndex === index
         }
+    }
+    // Above a mark's band, which encloses a number.
+    BoardTable {
+        boardLayout: layout
+        markRow: now.markRow
+        markColumn: now.markColumn
+        // At the end the pictures alone are looked at.
+        opacity: 1 - now.ended
     }
     Joy {
         id: joy

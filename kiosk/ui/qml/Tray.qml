@@ -77,7 +77,7 @@ Item {
                 anchors { fill: parent; margins: parent.height * 0.07 }
                 radius: height * 0.18
                 color: place.filled ? Theme.leaf : Theme.paper
-                border { color: Theme.edge; width: place.filled ? 0 : Math.max(1, 2 * Theme.unit) }
+                border { color: Theme.slot; width: place.filled ? 0 : Math.max(1, 3 * Theme.unit) }
             }
             // The two cards are hinted at in it: an empty box would look like a field to be filled in.
             Repeater {
@@ -106,8 +106,7 @@ Item {
                     height: width
                     radius: 0.11 * tray.card
                     color: Theme.paper
-                    // Fainter than what lies there: places that wait are not looked at.
-                    border { color: Theme.edge; width: Math.max(1, 2 * Theme.unit) }
+                    border { color: Theme.slot; width: Math.max(1, 3 * Theme.unit) }
                 }
             }
             // Two cards side by side; or one on the other, of which only the edge is seen.

@@ -91,8 +91,7 @@ class BoardScreen(QAbstractListModel):
         self._practice = False
         self._faces: list[_Face] = []
         self._rows = self._columns = self._pairs = self._pairs_found = self._moves = 0
-        self._untouched = False
-        self._waits = _NOWHERE
+        self._untouched = self._one_up = False
         self._wait: BoardWait | None = None
         self._mark_row = self._mark_column = _NOWHERE
         self.looked_at: tuple[int | None, int | None] = (None, None)
@@ -151,10 +150,9 @@ class BoardScreen(QAbstractListModel):
         self._count_up()
 
     def _count_up(self) -> None:
-        up = [self.location(position) for position in self.unmatched]
-        waits = up[0] if len(up) == 1 else _NOWHERE
-        if waits != self._waits:
-            self._waits = waits
+        one_up = len(self.unmatched) == 1
+        if one_up != self._one_up:
+            self._one_up = one_up
             self.turned.emit()
 
     def reveal(self, position: Position, card: str) -> None:
@@ -350,12 +348,7 @@ class BoardScreen(QAbstractListModel):
     @Property(bool, notify=turned)
     def oneUp(self) -> bool:  # noqa: N802 - QML's convention
         """Whether one card is up and waits for its second."""
-        return self._waits != _NOWHERE
-
-    @Property(int, notify=turned)
-    def waits(self) -> int:
-        """Return the number of the card that is up and waits for its second; -1 for none."""
-        return self._waits
+        return self._one_up
 
     @Property(bool, notify=waited)
     def open(self) -> bool:
