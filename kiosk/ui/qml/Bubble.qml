@@ -52,8 +52,9 @@ Item {
     WordWidths {
         id: wordWidths
     }
-    // How far its words keep from its edges.
-    readonly property real inset: grows ? 60 * Theme.unit : Theme.gap
+    // How far its words keep from its edges. Very many need all of its width, and are read from one edge.
+    readonly property bool many: plain.advanceWidth > 3 * (width - 120 * Theme.unit)
+    readonly property real inset: grows && !many ? 60 * Theme.unit : Theme.gap
     readonly property bool few: short || cheered || tells || (end !== "" && end === whole)
     readonly property real pad: (grows && few && !triumphed ? 34 : 24) * Theme.unit
     // How much of its height is free above it.
@@ -133,6 +134,11 @@ Item {
         font { pixelSize: Math.round(bubble.louder * bubble.basis); bold: true }
     }
     TextMetrics {
+        id: plain
+        text: bubble.whole
+        font.pixelSize: bubble.basis
+    }
+    TextMetrics {
         id: heading
         text: bubble.end
         font { pixelSize: Theme.size(52); bold: true }
@@ -199,7 +205,7 @@ Item {
                 : Math.max(Theme.size(0), Math.floor(usual.font.pixelSize * Math.max(bubble.share, 0.95 * Math.sqrt(bubble.share))))
             font.bold: bubble.cheered
             color: bubble.cheered ? Theme.sea : Theme.ink
-            horizontalAlignment: bubble.centred ? Text.AlignHCenter : LayoutMirroring.enabled ? Text.AlignLeft : undefined
+            horizontalAlignment: bubble.centred && !bubble.many ? Text.AlignHCenter : LayoutMirroring.enabled ? Text.AlignLeft : undefined
             lineHeight: 1.12
             // Said once, as a whole, in the order in which it is spoken.
             Accessible.role: Accessible.AlertMessage
