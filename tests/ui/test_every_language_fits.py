@@ -679,7 +679,7 @@ def test_statements_of_an_upright_page_stand_close_above_their_scales_which_are_
 def test_the_words_for_the_ends_stand_once_above_the_points_of_a_wide_page_of_ratings(
     kiosk: tuple[Window, StudyConfig],
 ) -> None:
-    screens, ground = kiosk[0].screens, kiosk[0].shown.contentItem()
+    ground = kiosk[0].shown.contentItem()
     item = SIXTEEN[0]
     assert isinstance(item, Likert)
     for page in rating_pages(kiosk, Layout(1920, 1080)):
@@ -698,16 +698,31 @@ def test_the_words_for_the_ends_stand_once_above_the_points_of_a_wide_page_of_ra
         assert whole(band).contains(lowest)
         assert whole(band).contains(highest)
         assert 0 <= whole(band).bottom() - first.top() <= 4
-        # Each is over the middle of its point, and over a column that all rows have.
+        # Each is over the middle of its point.
         ends = [points.left() + points.height() / 2, points.right() - points.height() / 2]
         assert abs(lowest.center().x() - ends[0]) <= 1
         assert abs(highest.center().x() - ends[1]) <= 1
-        for box in screens.form.property("items"):
-            columns = [find_item(ground, f"column-{box['id']}-{at}") for at in (0, 1)]
-            middles = [whole(column).center().x() for column in columns if column is not None]
-            assert middles == [pytest.approx(end, abs=1) for end in ends]
         # Each statement has most of its card's width.
         assert points.left() > first.left() + 0.55 * first.width()
+
+
+@pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)
+def test_all_points_of_a_page_of_ratings_have_the_same_ground(
+    kiosk: tuple[Window, StudyConfig], layout: Layout
+) -> None:
+    shown = kiosk[0].shown
+    for first, _ in zip(range(0, len(SIXTEEN), 4), rating_pages(kiosk, layout), strict=True):
+        points = [
+            whole(point)
+            for asked in SIXTEEN[first : first + 4]
+            for number in range(1, 6)
+            if (point := find_item(shown.contentItem(), f"answer-{asked.id}-{number}")) is not None
+        ]
+        assert len(points) == 20
+        picture = shown.grabWindow()
+        # A point is round: its square's corners are outside it.
+        corners = [corner for point in points for corner in (point.topLeft(), point.topRight(), point.bottomLeft())]
+        assert len({picture.pixelColor(corner.toPoint()).name() for corner in corners}) == 1
 
 
 @pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)

@@ -38,8 +38,8 @@ QtObject {
     readonly property color stated: highContrast ? "#FFFFFF" : Qt.tint(white, Qt.alpha(sea, 0.13))
     // What lies below things that are put down on it.
     readonly property color shelf: highContrast ? "#FFFFFF" : Qt.tint(paper, Qt.alpha(sand, 0.32))
-    // The head of a table, and its columns that are to be found again.
-    readonly property color column: highContrast ? "#FFFFFF" : Qt.tint(white, Qt.alpha(sand, 0.4))
+    // The head of a table.
+    readonly property color band: highContrast ? "#FFFFFF" : Qt.tint(white, Qt.alpha(sand, 0.4))
     // The outline of a card on it.
     readonly property color slot: highContrast ? "#000000" : Qt.darker(sand, 1.25)
     readonly property color ink: highContrast ? "#000000" : "#22313F"

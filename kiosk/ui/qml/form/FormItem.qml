@@ -135,23 +135,6 @@ Item {
         topRightRadius: topLeftRadius
         color: box.bare ? "transparent" : Theme.white
         border { color: box.missed ? Theme.deepAmber : Theme.edge; width: box.bare ? 0 : (box.missed ? 5 : 3) * Theme.unit }
-        // Behind the first point and the last: these columns lead from row to row and up to the words for the ends.
-        Repeater {
-            model: box.rows.table === null ? 0 : 2
-            Rectangle {
-                required property int index
-                objectName: `column-${box.item.id}-${index}`
-                readonly property real reach: 12 * Theme.unit
-                readonly property real edge: Math.ceil(card.border.width)
-                readonly property real from: box.width - box.page.inset - box.rows.scaleWidth - reach
-                    + index * (box.rows.scaleWidth - box.rows.beyond - (box.rows.table?.point ?? 0))
-                x: Theme.across(from, width, box.width)
-                y: edge
-                width: (box.rows.table?.point ?? 0) + 2 * reach
-                height: Math.floor(card.height) - 2 * edge
-                color: Theme.column
-            }
-        }
         Rectangle {
             objectName: `due-${box.item.id}`
             anchors.fill: parent

@@ -15,7 +15,7 @@ Rectangle {
     readonly property real point: rows.table?.point ?? 0
     readonly property real span: rows.scaleWidth - rows.beyond
 
-    color: Theme.column
+    color: Theme.band
     border { color: Theme.edge; width: 3 * Theme.unit }
     topLeftRadius: Theme.radius
     topRightRadius: Theme.radius
