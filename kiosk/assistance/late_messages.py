@@ -21,8 +21,12 @@ if TYPE_CHECKING:
 _BEGINS = re.compile(r"^(-?[a-zA-Z][a-zA-Z0-9_-]*) *=", re.MULTILINE)
 _ATTRIBUTE = re.compile(r"^ +\.([a-zA-Z][a-zA-Z0-9_-]*) *=", re.MULTILINE)
 _VARIABLE = r"\{ *\$([a-zA-Z][a-zA-Z0-9_-]*) *\}"
-_PLAIN = re.compile(rf"([a-zA-Z][a-zA-Z0-9_-]*) *= *(?=[^ \n\r])((?:[^{{}}\n\r]|{_VARIABLE})+)(?:\n(?:#[^\n\r]*)?)*")
+_WORDS = rf"(?:[^{{}}\n\r]|{_VARIABLE})+"
+_COMMENTS = r"(?:\n(?:#[^\n\r]*)?)*"
+_PLAIN = re.compile(rf"([a-zA-Z][a-zA-Z0-9_-]*) *= *(?=[^ \n\r])({_WORDS}){_COMMENTS}")
 """A message of one line with nothing but text and variables, and the comments behind it: four fifths of all."""
+_PLAIN_LINES = re.compile(rf"([a-zA-Z][a-zA-Z0-9_-]*) *=((?:\n    (?=[^ .\[*\n\r]){_WORDS})+){_COMMENTS}")
+"""A message of such lines below its name; Fluent takes away what all of them are set in by."""
 _MOST_CHARACTERS = 2500
 """Fluent refuses a longer variable."""
 
@@ -46,8 +50,12 @@ def attributes_in(text: str) -> frozenset[str]:
 @lru_cache(maxsize=1024)
 def plain_parts(text: str) -> tuple[str, tuple[str, ...]] | None:
     """Return a plain message's name, and its texts and names of variables in turn; None for any other message."""
-    plain = _PLAIN.fullmatch(text)
-    return None if plain is None else (plain[1], tuple(re.split(_VARIABLE, plain[2].rstrip(" "))))
+    if (plain := _PLAIN.fullmatch(text)) is not None:
+        return plain[1], tuple(re.split(_VARIABLE, plain[2].rstrip(" ")))
+    if (lines := _PLAIN_LINES.fullmatch(text)) is not None:
+        words = lines[2].removeprefix("\n    ").replace("\n    ", "\n")
+        return lines[1], tuple(re.split(_VARIABLE, words.rstrip(" ")))
+    return None
 
 
 class LateMessages:

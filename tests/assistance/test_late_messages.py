@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -45,6 +46,23 @@ def test_a_plain_message_is_what_the_parser_makes_of_it(after: str) -> None:
         mine, *_ = parsed(source).body
         theirs, *_ = FluentResource(source).body
         assert mine.equals(theirs, ["span", "comment", "annotations"]), text
+
+
+@pytest.mark.parametrize(
+    "after", ["", "\n", "\n\n# Why\n", "\n      further in\n", "\n  less far\n", "\n    .loud = HI\n"]
+)
+@pytest.mark.parametrize("between", ["", "\n"])
+def test_a_plain_message_of_lines_is_what_the_parser_makes_of_it(between: str, after: str) -> None:
+    for one, other in product(TEXTS, TEXTS):
+        source = f"name =\n    {one}\n{between}    {other}{after}"
+        mine, *_ = parsed(source).body
+        theirs, *_ = FluentResource(source).body
+        assert mine.equals(theirs, ["span", "comment", "annotations"]), source
+
+
+def test_lines_below_their_name_need_no_parser() -> None:
+    messages = LateMessages("en", dict(split("rule =\n    Turn two cards.\n    Remember { $what }.\n")))
+    assert messages.plain("rule", {"what": "where each is"}) == "Turn two cards.\nRemember where each is."
 
 
 LATE = """

@@ -351,7 +351,7 @@ STUDIES: dict[str, Bad] = {
     "sheet with an empty paragraph": Bad(
         TOLD,
         ("the information sheet {here}/sheets/en.toml: about.paragraph 5 must not be empty",),
-        told("en", "It takes about ten minutes. You can stop whenever you like.", ""),
+        told("en", r"It takes about ten minutes\nYou can stop whenever you like.", ""),
     ),
     "purpose twice": Bad(
         TOLD,
