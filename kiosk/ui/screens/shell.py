@@ -359,7 +359,7 @@ class KioskScreen(QObject):
 
     @Property(str, notify=controls)
     def pauseLine(self) -> str:  # noqa: N802 - QML's convention
-        """Return what the pause screen says below its title: when it goes on, or whose doing it is."""
+        """Return what the pause screen says below its title: when it goes on, or who paused it."""
         if self._back_at:
             return self._catalogue.text("pause-back", time=self._back_at)
         # A pause goes on by itself; the screen of that name waits for the experimenter.
@@ -367,7 +367,7 @@ class KioskScreen(QObject):
 
     @Property(str, notify=controls)
     def pauseMore(self) -> str:  # noqa: N802 - QML's convention
-        """Return what a pause means for the one who is there; empty if there is nothing to say."""
+        """Return what else the visitor should know about the pause; empty if there is nothing."""
         if self._screen != "pause":
             return self._catalogue.text("pause-kept")
         return self._catalogue.text("pause-then") if self._back_at else ""
