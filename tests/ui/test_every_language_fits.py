@@ -803,9 +803,10 @@ def test_that_an_item_does_not_apply_is_a_column_after_the_points_of_a_wide_page
 
 
 @pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)
-def test_ten_points_alone_on_a_page_are_large_circles_from_edge_to_edge_below_a_large_question(
+def test_ten_points_alone_on_a_page_are_large_circles_over_its_width_below_a_large_question(
     kiosk: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
+    four, *_ = rating_pages(kiosk, layout)
     pages = rating_pages(kiosk, layout, ALONE)
     ((_, card, shown, scale),) = next(pages)
     ground = kiosk[0].shown.contentItem()
@@ -815,25 +816,32 @@ def test_ten_points_alone_on_a_page_are_large_circles_from_edge_to_edge_below_a_
     assert len(places) == 10
     wide = layout.width > layout.height
     assert {round(side) for place in places for side in (place.width(), place.height())} == {round(places[0].width())}
-    assert places[0].width() >= (143 if wide else 87)
-    assert all(after.left() - point.right() >= 7.5 for point, after in pairwise(places))
-    assert abs((scale.left() - card.left()) - (card.right() - scale.right())) <= 1
-    assert scale.width() > 0.93 * card.width()
+    assert places[0].width() >= (142 if wide else 82)
+    assert all(after.left() - point.right() >= 7 for point, after in pairwise(places))
+    assert scale.left() - card.left() == pytest.approx(card.right() - scale.right(), abs=1)
+    assert 40 <= scale.left() - card.left() <= 48
     asked = next(text for text in texts(ground) if text.property("text").replace("\xa0", " ") == ALONE[0].text["en"])
     assert asked.property("font").pixelSize() >= (60 if wide else 64)
-    # The card reaches from the line of pages to the helper's back, or has a good part of an upright page. What is on it
-    # stands in its middle.
-    assert card.height() >= (650 if wide else 620)
+    # The card ends where the last of four does, and what is on it stands in its middle.
+    assert card.bottom() == pytest.approx(four[-1][1].bottom(), abs=2)
+    assert card.top() <= four[0][1].top() + 1
     assert abs(shown.center().x() - card.center().x()) <= 2
     ends = [painted(text) for text in texts(ground) if text.property("text") in ("not at all", "completely")]
     assert [end.height() > 45 for end in ends] == [True, True]
     assert abs((shown.top() - card.top()) - (card.bottom() - ends[0].bottom())) <= 16
+    assert [ends[0].left(), ends[1].right()] == pytest.approx([scale.left(), scale.right()], abs=1)
     # It is the one to answer next.
     due = find_item(ground, f"due-{ALONE[0].id}")
     assert due is not None
     assert due.opacity() == 1
-    assert list(pages) == []
     assert card.top() + 30 < shown.top() < shown.bottom() + 30 < scale.top() < scale.bottom() + 30 < card.bottom()
+    # Its points stay there when it is pointed out.
+    kiosk[0].screens.form.show_missing((ALONE[0].id,))
+    lay_out(kiosk[0].shown)
+    first = find_item(ground, f"answer-{ALONE[0].id}-1")
+    assert first is not None
+    assert whole(first).topLeft().toTuple() == pytest.approx(scale.topLeft().toTuple(), abs=1)
+    assert list(pages) == []
 
 
 @pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)

@@ -62,7 +62,7 @@ Item {
     readonly property real asks: told.height + leaves
     readonly property real addable: page.alone || beside ? 0 : (page.ample ? 48 : 32) * Theme.unit
     // A word that it is missed, which stands there, takes some of it: four such cards still fit an upright page.
-    readonly property real usualSpacing: page.alone ? (page.solo ? page.upright ? page.airy ? 2.6 : 2 : page.tight ? 2 : 3 : 2) * Theme.gap : (page.dense ? 4 : page.ample ? Theme.textSize > 1 ? 16 : missed ? 6 : 16 : page.easy ? 18 : page.airy ? 22 : columned ? 12 : page.calm ? 14 : 8) * Theme.unit
+    readonly property real usualSpacing: page.alone ? (page.solo ? page.upright ? 3.5 * Theme.textSize : page.tight ? 2 : 3 : 2) * Theme.gap : (page.dense ? 4 : page.ample ? Theme.textSize > 1 ? 16 : missed ? 6 : 16 : page.easy ? 18 : page.airy ? 22 : columned ? 12 : page.calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
     readonly property real usualMargin: bare ? 0 : page.solo ? (page.tight ? 20 : page.upright ? 56 : 44) * Theme.unit : rows.own || rows.table ? Math.max((rows.table ? 4 : 10) * Theme.unit, rows.margin - taken / 2) : (beside ? page.dense ? 9 : 20 : page.dense ? 8 : page.tight ? 10 : page.ample ? missed ? 9 : 18 : page.easy ? inline ? 28 : 30 : page.airy ? 26 : columned ? inline ? ranged ? 16 : 8 : 16 : page.largeText ? 13 : 17) * Theme.unit
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
@@ -114,7 +114,7 @@ Item {
     // Whether it is the first card of a table, which the band with these words is joined to.
     readonly property bool topped: rows.table !== null && headed
 
-    height: Math.max(head + content.height + 2 * margin, page.solo ? Math.min(page.cleared, page.upright ? 640 * Theme.unit : Infinity) : 0)
+    height: Math.max(head + content.height + 2 * margin, page.solo ? page.cleared : 0)
 
     TableHead {
         objectName: "table-head"

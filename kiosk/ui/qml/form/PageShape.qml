@@ -54,12 +54,13 @@ QtObject {
     // How far below that line the first card begins, and what it leaves of the height for cards.
     readonly property real lead: !lined ? 0 : (largeText ? 8 : upright ? 28 : 20) * Theme.unit
     readonly property real free: room - lead
-    // The same with air below the last card, where the helper's back stands. What is pointed out may take that.
-    readonly property real cleared: free - 32 * Theme.unit
+    // The same with air below the last card: that of a wide page is clear of the helper's back, and that of an upright one
+    // ends where four cards do. What is pointed out may take this air.
+    readonly property real cleared: free - (upright ? 20 : 32) * Theme.unit
     // How far cards are from each other at least.
     readonly property real gap: (dense || tight ? 8 : 12) * Theme.unit
     // How far the content of a card is from its left and right edges, and what that leaves of its width.
-    readonly property real inset: solo && upright && items[0].points > 7 ? 16 * Theme.unit : (easy ? 1.5 : 1.2) * Theme.gap
+    readonly property real inset: solo ? 40 * Theme.unit : (easy ? 1.5 : 1.2) * Theme.gap
     readonly property real inner: column - 2 * inset
 
     function scales(item: var): bool {
