@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
-from PySide6.QtCore import QDeadlineTimer, QPointF, Qt
-from PySide6.QtGui import QGuiApplication
+from PySide6.QtCore import QDeadlineTimer, QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QGuiApplication
 from PySide6.QtQuick import QQuickItem
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
@@ -19,7 +19,7 @@ from kiosk.ui.screens.questionnaire import kept_together
 from kiosk.ui.simulated_visitor import UiDriver, find_item, item_centre, lay_out
 from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth, MakeBooth
-from tests.ui.looking import items, place, texts
+from tests.ui.looking import appearance, contrast, items, place, texts
 from tests.ui.reaching import Finger
 
 ITEMS: dict[str, Item] = {
@@ -567,6 +567,63 @@ def test_the_keys_beside_a_wide_page_keep_their_distance_from_the_helper(make_bo
     assert min(ear.top() for ear in ears) - key.bottom() - 20 >= 60
 
 
+@pytest.mark.parametrize("right", [False, True])
+@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])
+def test_the_tail_of_a_number_s_keys_joins_their_edge_to_that_of_the_question(
+    make_booth: MakeBooth, qtbot: QtBot, width: int, height: int, *, right: bool
+) -> None:
+    booth = make_booth()
+    window = booth.app.window
+    window.setProperty("boardOnRight", right)
+    about_you(booth, qtbot, width, height)
+    booth.click("number-age")
+    lay_out(window)
+    tail = booth.item("keys-tail")
+    assert tail.isVisible()
+    (keys,) = [
+        item for item in items(window.contentItem()) if item.metaObject().className().startswith("ScreenKeyboard")
+    ]
+    tip, card, around = (
+        item.mapRectToScene(QRectF(0, 0, item.width(), item.height())) for item in (tail, booth.item("card-age"), keys)
+    )
+    if height > width:
+        gap = tip.top() - card.bottom()
+        line = [QPointF(at, around.top() + 6) for at in range(round(around.left()) + 40, round(around.right()) - 40)]
+        mouth = QPointF(tip.center().x(), around.top() + 2)
+    else:
+        gap = max(tip.left() - card.right(), card.left() - tip.right())
+        edge, inwards = (around.left(), 1) if tip.left() < around.left() else (around.right(), -1)
+        line = [QPointF(edge + 6 * inwards, at) for at in range(round(around.top()) + 40, round(around.bottom()) - 40)]
+        mouth = QPointF(edge + 2 * inwards, tip.center().y())
+    assert gap == pytest.approx(0, abs=1)
+    # Inside of the keys' edge nothing is left of the tail's, and that edge is open where the tail leaves it.
+    picture, ratio = window.grabWindow(), window.devicePixelRatio()
+    colors = {picture.pixelColor((point * ratio).toPoint()).name() for point in [*line, mouth]}
+    assert colors == {QColor(keys.property("color")).name()}
+
+
+@pytest.mark.parametrize("answered", [False, True])
+def test_the_way_on_below_an_upright_page_s_keys_can_be_read_and_is_not_filled(
+    make_booth: MakeBooth, qtbot: QtBot, *, answered: bool
+) -> None:
+    booth = make_booth()
+    about_you(booth, qtbot, 1080, 1920)
+    if answered:
+        for item, value in (("age", 30), ("gender", "woman"), ("robots", "none")):
+            booth.app.screens.form.show_answer(item, value)
+    way = booth.item("continue")
+    assert way.property("quiet") is not answered
+    booth.click("number-age")
+    assert booth.sees("key-1")
+    lay_out(booth.app.window)
+    *_, ground, letters = appearance(way, booth.app.window.grabWindow())
+    assert contrast(letters, ground) >= 4.5
+    assert way.property("quiet")
+    assert way.parentItem().opacity() == 1
+    booth.click("key-done")
+    assert way.property("quiet") is not answered
+
+
 def test_an_upright_page_s_keys_stand_below_their_question_over_all_others_until_they_are_done_with(
     make_booth: MakeBooth, qtbot: QtBot
 ) -> None:
@@ -585,8 +642,8 @@ def test_an_upright_page_s_keys_stand_below_their_question_over_all_others_until
     assert all(len({top for _, top in row}) == 1 for row in places)
     foot = booth.item("item-robots").mapToScene(QPointF(0, booth.item("item-robots").height())).y()
     assert 0 < foot - keys[-1][-1].mapToScene(QPointF(0, keys[-1][-1].height())).y() < 40
-    # Questions that they may cover step back until the keys go, and so does the way on.
-    others = [booth.item(name) for name in ("item-gender", "item-robots")] + [booth.item("continue").parentItem()]
+    # Questions that they may cover step back until the keys go.
+    others = [booth.item(name) for name in ("item-gender", "item-robots")]
     assert booth.item("item-age").opacity() == 1 > max(other.opacity() for other in others)
     # Nothing can be stepped before there is a number, nor while the keys enter it: the field stays as wide.
     field = booth.item("number-age")

@@ -16,9 +16,9 @@ PageFrame {
     readonly property bool lined: shape.lined
     // Whether the keys of a number stand in the helper's place.
     readonly property bool keysBeside: keyboard.visible && keyboard.numbers
-    // Or over an upright page. Its other questions and its way on step back then: what is next is to be done with typing.
-    // Pale letters would not have the contrast that was asked for.
-    readonly property real setBack: keysBeside && shape.upright && !Theme.highContrast ? 0.3 : 1
+    // Or over an upright page. Its other questions step back then, and its way on, whose words can still be read, is not
+    // filled: what is next is to be done with typing. Pale letters would not have the contrast that was asked for.
+    readonly property bool under: keysBeside && shape.upright && !Theme.highContrast
 
     // How much of the ways' line they take at both ends of a wide page, with and without a way back, whatever is answered
     // and pointed out: what stands between them stays where it is.
@@ -42,11 +42,10 @@ PageFrame {
     // A long title of a questionnaire's own would reach the controls.
     cornered: shape.upright ? 0 : Math.max(0, 360 * Theme.unit - (width - column) / 2)
     // Pale until the page is answered, and yet to be pressed: what is left out is pointed out then.
-    quiet: form.skips || !form.complete
+    quiet: form.skips || !form.complete || under
     way.waits: !form.skips && !form.complete
     way.reason: form.waiting
     way.note: way.fills && way.waits ? form.waiting : ""
-    way.opacity: setBack
     label: words[form.skips ? "form-skip" : "form-next"]
     beside: progress
     // A title that has one line keeps it, and the line of pages tells what the number would.
@@ -226,7 +225,7 @@ PageFrame {
                     loosened: pane.loosened
                     grown: pane.grown
                     // Over an upright page the keys cover other questions: these step back until they can be seen again.
-                    opacity: keyboard.card === asked ? 1 : view.setBack
+                    opacity: keyboard.card === asked || !view.under ? 1 : 0.3
                     keyed: keyboard.field !== null && keyboard.card === asked
                     // While keys on the screen type into one, that is the one which is answered.
                     due: (!shape.alone || shape.solo) && (keyboard.field !== null ? keyed : view.form.due === modelData.id)

@@ -134,30 +134,39 @@ Rectangle {
         onClicked: keyboard.shown = leads
     }
 
-    // A bubble's tail. Beside a wide page it reaches the field that is typed into, if nothing stands between; else it ends
-    // at its card, at the middle of the field.
+    // A bubble's tail, level with the middle of the field. It ends at the outer edge of its card: across that edge, two
+    // outlines would cross.
     Shape {
         id: tail
+        objectName: "keys-tail"
         visible: keyboard.points
         readonly property bool after: keyboard.broad ? keyboard.where.aim.y > keyboard.y : keyboard.x < 0
-        // From the keys to the field's edge; 0 where it is not for that.
-        readonly property real reach: keyboard.broad || !keyboard.card?.inline || !keyboard.field || after ? 0
-            : keyboard.x - keyboard.where.aim.x - keyboard.field.settled / 2
-        width: reach > 0 ? reach : keyboard.broad ? Math.min(32 * Theme.unit, keyboard.away - 2 * Theme.unit)
-            : Math.max(30 * Theme.unit, Math.min(96 * Theme.unit, keyboard.away))
+        readonly property real line: keyboard.border.width
+        width: Math.max(0, keyboard.away)
         height: keyboard.broad ? 2 * width : 48 * Theme.unit
         x: keyboard.broad ? keyboard.where.aim.x - keyboard.x - width / 2 : after ? keyboard.width : -width
         y: keyboard.broad ? (after ? keyboard.height + width / 2 : -width / 2) - height / 2 : keyboard.where.aim.y - keyboard.y - height / 2
         rotation: (keyboard.broad ? 90 : 0) + (after ? 180 : 0)
+        // Without the line that is drawn around the keys between its ends.
         ShapePath {
             fillColor: keyboard.color
-            strokeColor: keyboard.border.color
-            strokeWidth: keyboard.border.width
-            joinStyle: ShapePath.RoundJoin
-            capStyle: ShapePath.FlatCap
-            startX: tail.width + 5 * Theme.unit; startY: 0
+            strokeColor: "transparent"
+            startX: tail.width + tail.line + 0.5 * Theme.unit; startY: 0
+            PathLine { x: tail.width; y: 0 }
             PathLine { x: Theme.unit; y: tail.height / 2 }
-            PathLine { x: tail.width + 5 * Theme.unit; y: tail.height }
+            PathLine { x: tail.width; y: tail.height }
+            PathLine { x: tail.width + tail.line + 0.5 * Theme.unit; y: tail.height }
+        }
+        // Its line ends within the width of that one.
+        ShapePath {
+            fillColor: "transparent"
+            strokeColor: keyboard.border.color
+            strokeWidth: tail.line
+            joinStyle: ShapePath.RoundJoin
+            capStyle: ShapePath.RoundCap
+            startX: tail.width + tail.line / 2; startY: 0
+            PathLine { x: Theme.unit; y: tail.height / 2 }
+            PathLine { x: tail.width + tail.line / 2; y: tail.height }
         }
     }
     Grid {
