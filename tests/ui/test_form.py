@@ -13,6 +13,7 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.assistance.keyboards import key_rows
 from kiosk.config import ASSETS
+from kiosk.experiment.events import TextSize
 from kiosk.experiment.items import NOT_APPLICABLE, Response
 from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.ui.screens.questionnaire import kept_together
@@ -500,12 +501,30 @@ def test_the_options_of_all_questions_stand_in_the_same_two_columns(
     assert not booth.sees("more")
     columns = [(option.x(), option.width()) for option in asked[0][:2]]
     assert columns[0][1] == columns[1][1]
+    whole = columns[1][0] + columns[1][1]
     for options in asked:
-        # The last of an odd number is as wide as the others.
-        assert [(option.x(), option.width()) for option in options] == (columns * 3)[: len(options)]
+        # The last of an odd number takes its row.
+        expected = columns * 2 + ([(columns[0][0], pytest.approx(whole))] if len(options) % 2 else [])
+        assert [(option.x(), option.width()) for option in options] == expected
         for left, right in zip(options[::2], options[1::2], strict=False):
             assert (left.y(), left.height()) == (right.y(), right.height())
         assert max(option.height() for option in options) < 1.6 * min(option.height() for option in options)
+
+
+@pytest.mark.parametrize("language", ["en", "es", "it"])
+@pytest.mark.parametrize("size", [TextSize.NORMAL, TextSize.LARGEST])
+def test_an_upright_page_s_options_are_as_high_as_the_highest_of_their_question(
+    make_booth: MakeBooth, qtbot: QtBot, language: str, size: TextSize
+) -> None:
+    booth = make_booth()
+    booth.app.screens.set_language(CATALOGUES[language])
+    booth.app.screens.kiosk.set_text_size(size)
+    asked = about_you(booth, qtbot, 1080, 1920)
+    lay_out(booth.app.window)
+    # One of them has two lines.
+    assert max(text.property("lineCount") for option in asked[1] for text in texts(option)) == 2
+    assert [len({option.height() for option in options}) for options in asked] == [1, 1]
+    assert not booth.sees("more")
 
 
 @pytest.mark.parametrize("language", ["en", "es", "it"])

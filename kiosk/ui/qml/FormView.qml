@@ -196,8 +196,14 @@ PageFrame {
             readonly property real plain: summed(box => box.plain + (plainQuestions.columns !== null ? 22 : shape.ample ? 20 : shape.easy ? 24 : 30) * Theme.unit)
                 - (plainQuestions.columns !== null ? 12 * Theme.unit : 0)
             readonly property int optionRows: summed(box => box.optionRows)
-            // How much higher than usual each row of options of an upright page is.
-            readonly property real grown: shape.easy && optionRows > 0 ? Math.max(0, Math.min(28 * Theme.unit, Math.floor((room - plain) / optionRows))) : 0
+            // Whether all options of each question are as high as its highest, where the page has room for that, and how much
+            // that takes.
+            readonly property real uneven: summed(box => box.choices?.uneven ?? 0)
+            readonly property bool even: plain + uneven <= plainQuestions.sure
+            // How much higher than usual each row of options of an upright page is: two lines fit the highest.
+            readonly property real most: 28 * Theme.unit
+            readonly property real grown: !shape.easy || optionRows === 0 ? 0 : room - plain >= optionRows * most ? most
+                : Math.max(0, Math.floor((room - plain - (even ? uneven : 0)) / optionRows))
             readonly property real addable: summed(box => box.addable)
             readonly property real loosened: (shape.calm || shape.rated) && addable > 0 ? Math.max(0, Math.min(1, (room / share - plain - optionRows * grown) / addable)) : 0
             readonly property real tall: summed(box => box.height)
@@ -224,6 +230,7 @@ PageFrame {
                     questions: plainQuestions
                     loosened: pane.loosened
                     grown: pane.grown
+                    even: pane.even
                     // Over an upright page the keys cover other questions: these step back until they can be seen again.
                     opacity: keyboard.card === asked || !view.under ? 1 : 0.3
                     keyed: keyboard.field !== null && keyboard.card === asked

@@ -16,6 +16,10 @@ Flow {
     required property var arranged
     // How much higher each row is where there is height for that.
     property real grown: 0
+    // Whether those of one line are as high as those of two, and how much higher than that makes the list.
+    property bool even: false
+    readonly property real uneven: rows * highest - (least - (rows - 1) * spacing)
+    readonly property real highest: Math.max(...arranged.map(row => rowHeight(row.lines)))
     readonly property real size: questions.optionSize
     // The width and the lines of each.
     readonly property var tiles: {
@@ -55,7 +59,7 @@ Flow {
             on: list.chosen.includes(modelData.id)
             focusPolicy: list.several || on || (list.chosen.length === 0 && index === 0) ? Qt.StrongFocus : Qt.ClickFocus
             focus: index === 0
-            height: Math.max(implicitHeight, list.rowHeight(tile.lines), list.questions.optionHeight + list.grown)
+            height: Math.max(implicitHeight, list.even ? list.highest : list.rowHeight(tile.lines), list.questions.optionHeight + list.grown)
             width: tile.width
             words: modelData.text
             font.pixelSize: list.size

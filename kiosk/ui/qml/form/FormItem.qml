@@ -21,6 +21,8 @@ Item {
     // options are.
     property real loosened: 0
     property real grown: 0
+    // Whether all options of it are as high as the highest.
+    property bool even: false
     // Whether the keys on the screen type into it.
     property bool keyed: false
     // Whether it is the one to answer next. Its edge says so: what is chosen is filled, and the keyboard's ring is black.
@@ -377,6 +379,7 @@ Item {
             questions: box.questions
             arranged: box.questions.rows(box.item)
             grown: box.grown
+            even: box.even
             onPicked: option => several ? box.form.toggle(box.item.id, option) : box.form.choose(box.item.id, option)
         }
     }

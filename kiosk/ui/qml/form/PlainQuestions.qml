@@ -103,20 +103,28 @@ QtObject {
         const all = item.options.length
         if (page.alone && all <= 6)
             return 1
-        const few = [6, 5, 4, 3, 2].find(columns => columns <= Math.min(all, most)
-            && item.options.every(option => optionWidth(option, size) <= wordsRoom(columns)))
+        const few = [6, 5, 4, 3, 2].find(columns => columns <= Math.min(all, most) && columns === Math.ceil(all / Math.ceil(all / columns))
+            && item.options.every((option, at) => optionWidth(option, size) <= wordsRoom(columns, spanOf(item, at, columns))))
         if (few !== undefined)
-            return Math.ceil(all / Math.ceil(all / few))
+            return few
         const rows = rowLines(item, size, 2), usual = 62 * Theme.unit
         return Math.max(...rows) <= 2 && rows.reduce((sum, lines) => sum + Math.max(usual, textHeight(lines, size)), 0) < all * usual ? 2 : 1
     }
-    // How much width words have in so many columns.
-    function wordsRoom(columns: int): real {
-        return Math.floor((optionsWidth - (columns - 1) * (page.upright ? gutter : wideGutter * Theme.unit)) / columns) - around
+    // How many of the columns an option takes: the last one takes all that its row has left.
+    function spanOf(item: var, at: int, columns: int): int {
+        return at === item.options.length - 1 ? columns - at % columns : 1
+    }
+    // How wide an option is that takes so many of the columns.
+    function tileWidth(columns: int, span: int, gutter: real): real {
+        return span * Math.floor((optionsWidth - (columns - 1) * gutter) / columns) + (span - 1) * gutter
+    }
+    // How much width words have in it.
+    function wordsRoom(columns: int, span: int): real {
+        return Math.floor(tileWidth(columns, span, page.upright ? gutter : wideGutter * Theme.unit)) - around
     }
     // How many lines an option has there; many if a word of it has no room.
-    function optionLinesOf(option: var, size: real, columns: int): int {
-        const room = wordsRoom(columns), words = option.text.split(" ")
+    function optionLinesOf(option: var, size: real, room: real): int {
+        const words = option.text.split(" ")
         return optionWidth(option, size) <= room ? 1
             : words.some(word => widths.plain(word, size) > 0.98 * room) ? 9 : widths.plainLines(option.text, size, room)
     }
@@ -125,7 +133,7 @@ QtObject {
         const rows = []
         item.options.forEach((option, at) => {
             const row = Math.floor(at / columns)
-            rows[row] = Math.max(rows[row] ?? 1, columns === 1 ? 1 : optionLinesOf(option, size, columns))
+            rows[row] = Math.max(rows[row] ?? 1, columns === 1 ? 1 : optionLinesOf(option, size, wordsRoom(columns, spanOf(item, at, columns))))
         })
         return rows
     }
@@ -137,8 +145,7 @@ QtObject {
             if (filled.length < equal.reduce((all, lines) => all + lines, 0))
                 return filled.map(widths => ({widths, lines: 1}))
         }
-        const tile = Math.floor((optionsWidth - (columns - 1) * gutter) / columns)
-        return equal.map((lines, row) => ({widths: Array(Math.min(columns, item.options.length - row * columns)).fill(tile), lines}))
+        return equal.map((lines, row) => ({lines, widths: item.options.slice(row * columns, (row + 1) * columns).map((_, at) => tileWidth(columns, spanOf(item, row * columns + at, columns), gutter))}))
     }
     // As many options in each row as have room there, as wide as each other if they can be, and else as their words need.
     // Each row ends where the others do.
