@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import pytest
 from PySide6.QtCore import QCoreApplication, QObject, QPoint, QPointF, QRect, QRectF, Qt
-from PySide6.QtGui import QFont, QImage
+from PySide6.QtGui import QFont, QFontMetricsF, QImage
 from PySide6.QtQuick import QQuickItem
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
@@ -952,6 +952,25 @@ def test_the_time_left_to_say_that_one_is_there_is_shown_where_it_is_known(still
     kiosk.ask_still_there(asks=False)
     kiosk.ask_still_there(asks=True)
     assert not shows_time()
+
+
+@BOTH
+def test_the_seconds_to_say_that_one_is_there_are_read_from_afar(still: App) -> None:
+    still.screens.kiosk.ask_still_there(asks=True, wait_ms=20_000)
+    lay_out(still.window)
+    number, unit = find(still, "seconds-left"), find(still, "seconds-unit")
+    disc = number.parentItem()
+    assert disc is not None
+    upright = still.window.height() > still.window.width()
+    scale = min(still.window.height(), still.window.width()) / 1080
+    assert disc.width() / scale == pytest.approx(320 if upright else 240, abs=1)
+    assert number.property("font").pixelSize() / scale >= (85 if upright else 95)
+    assert unit.property("font").pixelSize() / scale >= 35
+    # Both together are in the middle of it: the number without the air above it, the unit without what hangs below it.
+    above = painted(number).top() + QFontMetricsF(number.property("font")).ascent()
+    above -= QFontMetricsF(number.property("font")).capHeight()
+    below = painted(unit).top() + QFontMetricsF(unit.property("font")).ascent()
+    assert (above + below) / 2 == pytest.approx(place(disc).center().y(), abs=4)
 
 
 def test_going_on_stands_where_the_way_on_does_and_has_the_keyboard(still: App) -> None:

@@ -44,6 +44,12 @@ FocusScope {
     property url cardBack: ""
     property url cardShadow: ""
     readonly property bool lies: String(cardBack) !== ""
+    WordWidths { id: widths }
+    // The largest of these letters with which a title is in one line, or else the smallest.
+    function largestInOneLine(title: string, sizes: var): real {
+        const sized = sizes.map(Theme.size)
+        return sized.find(size => widths.bold(title, size) <= 0.99 * content.width) ?? sized[sized.length - 1]
+    }
     // Whether they lie on the page above the card, and not on it.
     readonly property bool spread: lies && roomy && card.y > 600 * Theme.unit
     // What there is to choose: the name of each, its words, and whether it is quiet. The first has the keyboard.
@@ -184,11 +190,12 @@ FocusScope {
                 width: parent.width
                 // With the ring around it.
                 height: count.height + 28 * Theme.unit
-                // Smaller than the question.
                 CalmCount {
                     id: count
                     anchors.centerIn: parent
-                    width: (calm.roomy ? 200 : 150) * Theme.unit
+                    width: (calm.roomy ? 320 : calm.large ? 240 : 190) * Theme.unit
+                    // Smaller than the question.
+                    most: 0.93 * calm.titleSize
                     lasts: calm.lasts
                     second: calm.second
                     seconds: calm.seconds

@@ -11,6 +11,10 @@ Rectangle {
     // The unit of the last of the seconds, and of those before.
     required property string second
     required property string seconds
+    // How large the number is at most.
+    required property real most
+    readonly property real figure: Math.min(most, 96 * Theme.unit, 0.42 * width)
+    readonly property real unit: Math.max(24 * Theme.unit, Math.min(44 * Theme.unit, 0.15 * width))
 
     readonly property int steps: 40
     property int msLeft: 0
@@ -64,10 +68,10 @@ Rectangle {
     // Read by the eye alone: a screen reader would speak every second.
     PlainText {
         objectName: "seconds-left"
-        anchors { centerIn: parent; verticalCenterOffset: -0.1 * badge.width }
+        anchors { centerIn: parent; verticalCenterOffset: -0.8 * badge.unit }
         width: 0.8 * badge.width
         text: badge.secondsLeft
-        font { pixelSize: 0.42 * badge.width; bold: true }
+        font { pixelSize: badge.figure; bold: true }
         fontSizeMode: Text.HorizontalFit
         minimumPixelSize: Theme.body
         horizontalAlignment: Text.AlignHCenter
@@ -75,10 +79,10 @@ Rectangle {
     }
     PlainText {
         objectName: "seconds-unit"
-        anchors { centerIn: parent; verticalCenterOffset: 0.26 * badge.width }
+        anchors { centerIn: parent; verticalCenterOffset: 0.05 * badge.unit + 0.5 * badge.figure }
         width: 0.8 * badge.width
         text: badge.secondsLeft === 1 ? badge.second : badge.seconds
-        font.pixelSize: Math.max(24 * Theme.unit, 0.15 * badge.width)
+        font.pixelSize: badge.unit
         fontSizeMode: Text.HorizontalFit
         minimumPixelSize: 24 * Theme.unit
         horizontalAlignment: Text.AlignHCenter

@@ -36,7 +36,7 @@ Item {
             least: roomy ? Math.min(1040 * Theme.unit, 0.83 * speaker) : speaker > 0 && overlays.windowLayout.board !== null ? 730 * Theme.unit : 0
             sign: "M1.5 12 C6 3.5 18 3.5 22.5 12 C18 20.5 6 20.5 1.5 12 Z M12 8.5 A3.5 3.5 0 0 1 12 15.5 A3.5 3.5 0 0 1 12 8.5"
             title: overlays.words["still-there-title"]
-            titleSize: roomy ? Theme.size(88) : beside > 0 && Theme.textSize <= 1.15 ? Theme.size(84) : Theme.figure
+            titleSize: roomy ? largestInOneLine(title, [104, 100, 96, 94, 92, 90, 88]) : beside > 0 && Theme.textSize <= 1.15 ? largestInOneLine(title, [104, 100, 96, 92, 88, 84]) : Theme.figure
             line: overlays.words["still-there-line"]
             lineSize: Theme.size(roomy ? 46 : large ? 42 : 36)
             lasts: overlays.timed ? overlays.kiosk.answerMs : 0
