@@ -64,6 +64,12 @@ def pixels(text: QQuickItem) -> int:
     return int(text.property("font").pixelSize())
 
 
+def capitals_top(text: QQuickItem) -> float:
+    """Where the capitals of a text's first line begin in the window."""
+    letters = QFontMetricsF(text.property("font"))
+    return edges(text).top() + letters.ascent() - letters.capHeight()
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
 def test_each_row_of_the_first_page_is_a_bold_heading_over_smaller_plain_words(
@@ -82,9 +88,24 @@ def test_each_row_of_the_first_page_is_a_bold_heading_over_smaller_plain_words(
     ((of_headings, of_words),) = looks
     assert of_headings >= 48
     assert of_words >= (42 if language == "en" else 38)
-    tops = [edges(row).center().y() for row in rows]
+    # The drawings are even, and each heading stands at the same place beside its own.
+    tops = [edges(row.childItems()[0]).top() for row in rows]
     (step,) = {round(below - above) for above, below in pairwise(tops)}
     assert step > 0
+    capitals = [capitals_top(next(texts(row))) - top for row, top in zip(rows, tops, strict=True)]
+    assert max(capitals) - min(capitals) <= 1
+    assert all(8 <= each <= 20 for each in capitals)
+    # What one row says stays clear of the heading of the next.
+    for (_, words), (heading, _) in pairwise([list(texts(row)) for row in rows]):
+        assert capitals_top(heading) - edges(words).bottom() >= 32
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_first_row_of_the_first_page_stands_well_below_its_title(booth: Booth, qtbot: QtBot, language: str) -> None:
+    rows = those(shown(booth, qtbot, "about", SIZES[0], language), "SignedLine")
+    title = booth.item("page-title")
+    baseline = edges(title).top() + QFontMetricsF(title.property("font")).ascent()
+    assert 66 <= capitals_top(next(texts(rows[0]))) - baseline <= 80
 
 
 def test_on_a_wide_screen_the_rows_of_the_first_page_end_where_the_cards_of_the_next_do(
@@ -112,8 +133,9 @@ def test_a_path_joins_the_drawings_of_all_that_happens_one_after_the_other(
     ground = shown(booth, qtbot, "about", size, language)
     rows = those(ground, "SignedLine")
     discs = [edges(row.childItems()[0]) for row in rows]
-    # The last line of an upright page tells what all of it takes.
-    steps = discs if size[0] > size[1] else discs[:-1]
+    # The first line says what is studied, and the last one of an upright page what all of it takes.
+    steps = discs[1:] if size[0] > size[1] else discs[1:-1]
+    assert len(steps) == 3
     paths = sorted((edges(item) for item in items(ground) if item.objectName() == "path"), key=QRectF.top)
     assert len(paths) == len(steps) - 1
     for path, (above, below) in zip(paths, pairwise(steps), strict=True):

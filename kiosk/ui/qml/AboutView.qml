@@ -32,6 +32,8 @@ PageFrame {
     readonly property bool upright: width < height
     readonly property bool airy: (upright ? Theme.textSize <= 1.15 : aside !== "") && read.every(line => line.sign !== "") && airySize > 0
     readonly property real airySize: (upright ? [42, 40, 38, 36] : led ? [42, 40, 38, 37, 36] : [46, 44, 42, 40, 38, 36]).map(Theme.size).find(size => fitsAiry(size)) ?? 0
+    // Headings and their texts stand closer than lines without headings, so that each row is seen as one.
+    readonly property real airyLeading: led ? 0.96 : 1.08
     readonly property real airyWidth: column - badge - 1.5 * Theme.gap
     // A line that has a heading is smaller than it, so that the headings alone tell what happens.
     readonly property bool led: read.some(line => line.text.includes("\n"))
@@ -45,23 +47,26 @@ PageFrame {
     readonly property real badge: Math.max(80 * Theme.unit, Math.min((upright ? 176 : 132) * Theme.unit, 0.9 * (room - margin - under) / Math.max(1, read.length)))
     readonly property real pitch: Math.min((upright ? 400 : 260) * Theme.unit, (room - margin - under - badge) / Math.max(1, read.length - 1))
     function fitsAiry(size: real): bool {
-        const heights = read.map(line => said(line.text, leadOf(size), size, airyWidth))
-        // A heading is in one line, and the first and the last row reach only a little beyond their drawings.
-        return pitch >= badge && (!led || read.every(line => widths.lines(line.text.split("\n")[0], leadOf(size), airyWidth) === 1))
-            && [heights[0], heights[heights.length - 1]].every(end => end <= badge + 64 * Theme.unit)
+        const heights = read.map(line => said(line.text, leadOf(size), size, airyWidth, airyLeading))
+        if (led)
+            // Each heading is in one line at the top of its drawing, and the last row reaches only a little below it.
+            return pitch >= badge && read.every(line => widths.lines(line.text.split("\n")[0], leadOf(size), airyWidth) === 1)
+                && heights[heights.length - 1] <= badge + 36 * Theme.unit && heights.every(height => height + 0.8 * Theme.gap <= pitch)
+        // Lines are in the middle of their drawings, and the first and the last row reach only a little beyond them.
+        return pitch >= badge && [heights[0], heights[heights.length - 1]].every(end => end <= badge + 64 * Theme.unit)
             && heights.every((height, at) => at === 0 || (heights[at - 1] + height) / 2 + 0.8 * Theme.gap <= pitch)
     }
     // How high a line is about, and its heading, if it has one.
-    function said(text: string, leadSize: real, size: real, wide: real): real {
+    function said(text: string, leadSize: real, size: real, wide: real, leading: real): real {
         const at = text.indexOf("\n")
         const lines = text.slice(at + 1).split("\n").reduce((sum, part) => sum + widths.plainLines(part, size, wide), 0)
-        return (at < 0 ? 0 : 1.48 * leadSize * widths.lines(text.slice(0, at), leadSize, wide)) + 1.48 * size * lines
+        return leading * widths.leading * ((at < 0 ? 0 : leadSize * widths.lines(text.slice(0, at), leadSize, wide)) + size * lines)
     }
     function fits(size: real): bool {
         return tall(size) + read.length * close <= (led ? 0.96 : 0.92) * room
     }
     function tall(size: real): real {
-        return read.reduce((sum, line) => sum + Math.max(2.5 * size, said(line.text, size, size, (column - 2.5 * size - Theme.gap) * 0.9)), 0)
+        return read.reduce((sum, line) => sum + Math.max(2.5 * size, said(line.text, size, size, (column - 2.5 * size - Theme.gap) * 0.9, 1.08)), 0)
     }
 
     ScrollPane {
@@ -80,10 +85,11 @@ PageFrame {
                 required property var modelData
                 width: parent?.width ?? 0
                 height: view.airy ? view.badge : line.height
-                // What happens one after the other is a path. The last line says what all of it takes.
+                // What happens one after the other is a path: not the first line, which says what is studied, nor the last,
+                // which says what all of it takes.
                 Rectangle {
                     objectName: "path"
-                    visible: view.airy && row.index + 1 < Math.min(view.read.length, view.about.lines.length - 1)
+                    visible: view.airy && row.index > 0 && row.index + 1 < Math.min(view.read.length, view.about.lines.length - 1)
                     x: Theme.across((view.badge - width) / 2, width, row.width)
                     y: view.badge
                     width: 4 * Theme.unit
@@ -92,7 +98,7 @@ PageFrame {
                 }
                 SignedLine {
                     id: line
-                    y: (row.height - height) / 2
+                    y: headed ? 0 : (row.height - height) / 2
                     width: row.width
                     text: row.modelData.text
                     sign: row.modelData.sign
@@ -102,6 +108,7 @@ PageFrame {
                     leadSize: view.airy ? view.leadOf(size) : size
                     badge: view.airy ? view.badge : 2.5 * size
                     centred: view.airy
+                    leading: view.airy ? view.airyLeading : 1.08
                 }
             }
         }

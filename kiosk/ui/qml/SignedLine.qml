@@ -18,19 +18,28 @@ Item {
 
     // How wide the drawing is.
     property real badge: 2.5 * size
-    // Whether the drawing stands in the middle of the lines, and not at the first of them.
+    // Whether the drawing stands in the middle of the lines, and not at the first of them. Beside a large drawing, a
+    // heading stands at one place whatever follows it, so that all headings below each other are as far apart as the
+    // drawings: its capitals begin a little below the top of the drawing.
     property bool centred: false
+    readonly property bool headed: centred && signed && lead !== ""
+    // How far the lines are then below the top of the drawing: they have air above their capitals.
+    readonly property real sunk: headed ? 0.1 * badge - capitals.ascent + 0.72 * leadSize : 0
 
     // How high it is at least, so that lines beside each other begin together.
     property real least: 0
 
     height: Math.max(words.y + words.height, signed ? mark.height : 0, least)
 
+    FontMetrics {
+        id: capitals
+        font { pixelSize: line.leadSize; bold: true }
+    }
     Sign {
         id: mark
         visible: line.signed
         x: Theme.across(0, width, line.width)
-        y: line.centred ? (line.height - height) / 2 : Math.max(0, (Math.min(words.height, 2.7 * line.size) - height) / 2)
+        y: line.headed ? 0 : line.centred ? (line.height - height) / 2 : Math.max(0, (Math.min(words.height, 2.7 * line.size) - height) / 2)
         width: line.badge
         sign: line.sign
         thick: line.centred ? 1.7 : 2
@@ -40,7 +49,7 @@ Item {
         id: words
         readonly property real indent: line.signed ? mark.width + (line.centred ? 1.5 : 1) * Theme.gap : 0
         x: Theme.across(indent, width, line.width)
-        y: !line.signed ? 0 : Math.max(0, (mark.height - height) / 2)
+        y: line.headed ? line.sunk : !line.signed ? 0 : Math.max(0, (mark.height - height) / 2)
         width: line.width - indent
         Balanced {
             width: parent.width
