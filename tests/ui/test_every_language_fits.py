@@ -662,18 +662,26 @@ def background_of(button: QQuickItem) -> QQuickItem:
     return behind
 
 
-def test_statements_of_an_upright_page_stand_close_above_their_scales_which_are_at_one_depth(
+def test_statements_of_an_upright_page_stand_in_the_middle_of_two_lines_above_scales_at_one_depth(
     kiosk: tuple[Window, StudyConfig],
 ) -> None:
-    pages = list(rating_pages(kiosk, Layout(1080, 1920)))
-    lines = {round(shown.height() / 50) for page in pages for _, _, shown, _ in page}
-    assert lines == {1, 2}
-    # There is some air below the letters, too.
-    above = {round(scale.top() - shown.bottom()) for page in pages for _, _, shown, scale in page}
-    assert max(above) <= 20
-    assert max(above) - min(above) <= 1
-    depths = [scale.top() - card.top() for page in pages for _, card, _, scale in page]
+    ground = kiosk[0].shown.contentItem()
+    pages = []
+    for page in rating_pages(kiosk, Layout(1080, 1920)):
+        pages.append(page)
+        # What is above the letters of two lines is below those of the ends, too.
+        ends = sorted(painted(text).bottom() for text in texts(ground) if text.property("text") == "fully agree")
+        for (_, card, shown, _), end in zip(page, ends, strict=True):
+            if shown.height() > 75:
+                assert shown.top() - card.top() == pytest.approx(card.bottom() - end, abs=10)
+    cards = [(card, shown, scale) for page in pages for _, card, shown, scale in page]
+    assert {round(shown.height() / 50) for _, shown, _ in cards} == {1, 2}
+    middles = [shown.center().y() - card.top() for card, shown, _ in cards]
+    assert max(middles) - min(middles) <= 1
+    depths = [scale.top() - card.top() for card, _, scale in cards]
     assert max(depths) - min(depths) <= 1
+    # There is some air below the letters, too.
+    assert all(10 <= scale.top() - shown.bottom() <= 45 for _, shown, scale in cards)
 
 
 def test_the_words_for_the_ends_stand_once_above_the_points_of_a_wide_page_of_ratings(
@@ -860,6 +868,9 @@ def test_a_rating_of_any_kind_alone_on_a_page_has_a_card_and_its_width(
     ends = [whole(part) for name in names if (part := find_item(ground, name)) is not None]
     assert len(ends) == len(names)
     assert round(ends[0].left() - whole(card).left()) == round(whole(card).right() - ends[-1].right()) >= 16
+    (described,) = kiosk[0].screens.form.property("items")
+    words = [text for text in texts(ground) if text.property("text") in (described["left"], described["right"])]
+    assert [text.property("font").pixelSize() for text in words] == [40, 40]
     line = find_item(ground, "page-line")
     assert line is not None
     assert round(whole(line).width()) == round(whole(card).width())

@@ -70,7 +70,7 @@ Item {
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
     readonly property real taken: rows.measured ? Math.max(0, told.height - rows.height) : 0
     // Letters have some air above them already; what stands below them does not.
-    readonly property real raised: crowned ? 5 * Theme.unit : page.alone || beside || inline || page.dense ? 0 : (page.ample ? missed ? 0 : -6 : 4) * Theme.unit
+    readonly property real raised: crowned ? 5 * Theme.unit : page.alone || beside || inline || page.dense || page.ample ? 0 : 4 * Theme.unit
     readonly property var ways: ({
         likert: points, differential: points, pictures: points, slider: line, single: choice, multiple: choice,
         integer: number, text: letters, page: null
@@ -176,7 +176,7 @@ Item {
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : (box.leaves + box.lacks) / 2
+                y: box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.leaves / 2
                 width: box.beside && !box.crowned ? box.rows.textWidth : box.inline ? asked.width - box.questions.fieldWidth : asked.width
                 spacing: box.inline || box.rows.table ? 0 : box.page.solo ? 12 * Theme.unit : box.page.ample ? 4 * Theme.unit : content.spacing
                 Balanced {
@@ -236,7 +236,7 @@ Item {
                 id: way
                 readonly property real room: box.beside && !box.crowned ? box.rows.scaleWidth - box.rows.beyond : asked.width
                 x: Theme.across(box.crowned ? 0 : box.beside ? asked.width - box.rows.scaleWidth : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.crowned ? asked.height - height : box.rows.flank ? asked.middle - height / 2 : box.rows.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.y + told.height + content.spacing
+                y: box.crowned ? asked.height - height : box.rows.flank ? asked.middle - height / 2 : box.rows.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.y + told.height + box.lacks / 2 + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
