@@ -42,6 +42,8 @@ consent-waits =
         [one] To take part, tick the box that is needed
        *[other] To take part, tick the { $number } boxes that are needed
     }
+# In its place, once all of them have a tick.
+consent-ready = That is all that is needed.
 # Above both answers, as long as boxes that are needed have no tick.
 consent-to-go =
     { $number ->

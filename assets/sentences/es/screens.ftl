@@ -43,6 +43,8 @@ consent-waits =
         [one] Para participar, marca la casilla necesaria
        *[other] Para participar, marca las { $number } casillas necesarias
     }
+# In its place, once all of them have a tick.
+consent-ready = No hace falta nada más.
 # Above both answers, as long as boxes that are needed have no tick.
 consent-to-go =
     { $number ->

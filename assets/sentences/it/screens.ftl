@@ -43,6 +43,8 @@ consent-waits =
         [one] Per partecipare, spunta la casella necessaria
        *[other] Per partecipare, spunta le { $number } caselle necessarie
     }
+# In its place, once all of them have a tick.
+consent-ready = È tutto ciò che serve.
 # Above both answers, as long as boxes that are needed have no tick.
 consent-to-go =
     { $number ->

@@ -200,7 +200,7 @@ PageFrame {
                 readonly property real further: !view.short || !points.airy ? 0 : view.upright && parted ? Math.max(0, before - spacing)
                     : Math.max(0, Math.min((view.upright ? 1.3 : points.columns > 1 ? 1 : 0.5) * Theme.gap, free - 1.6 * Theme.gap - (parted ? spacing : 0)))
                 spacing: (points.airy && view.short ? view.used[2] : Theme.textSize <= 1.15 ? 0.5 : 0.4) * Theme.gap
-                // What is to be ticked.
+                // What is to be ticked, or that it is.
                 PlainText {
                     id: waits
                     objectName: "consent-waits"
@@ -211,7 +211,7 @@ PageFrame {
                     visible: boxes.needs
                     width: boxes.width
                     height: Math.ceil(letters.height)
-                    text: view.consent.asked
+                    text: view.consent.complete ? view.words["consent-ready"] : view.consent.asked
                     font { pixelSize: points.airy && view.short ? view.heads : Theme.reading; bold: true }
                     fontSizeMode: Text.HorizontalFit
                     minimumPixelSize: Theme.size(24)

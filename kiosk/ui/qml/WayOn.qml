@@ -110,18 +110,17 @@ FocusScope {
     PlainText {
         id: told
         objectName: "ways-line"
-        readonly property real span: ways.level ? 2 * ways.share + Theme.gap : ways.halved ? ways.width : go.width
         visible: text !== ""
-        x: Theme.across(ways.width - span, width, ways.width)
         y: (ways.level ? go.y : 0) - ways.head
-        width: span
+        width: ways.width
         height: Math.ceil(1.37 * font.pixelSize)
         text: ways.above
         onTextChanged: if (visible) Accessible.announce(told.text, Accessible.Polite)
         font { pixelSize: ((ways.fills ? 16 : 14) + 20 * Theme.textSize) * Theme.unit; bold: true }
         fontSizeMode: Text.HorizontalFit
         minimumPixelSize: 24 * Theme.unit
-        horizontalAlignment: Text.AlignHCenter
+        // As other headings of a page.
+        horizontalAlignment: Text.AlignLeft
         verticalAlignment: Text.AlignVCenter
         // Those who cannot see it are told it with the way on.
         Accessible.ignored: true

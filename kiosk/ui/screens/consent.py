@@ -119,7 +119,7 @@ class ConsentScreen(QObject):
 
     @Property(str, notify=marked)
     def asked(self) -> str:
-        """Return what is to be ticked to take part, also once it is; empty if nothing has to be."""
+        """Return what is to be ticked to take part; empty if nothing has to be."""
         required = frozenset() if self._page is None else self._page.required
         return self._catalogue.text("consent-waits", number=len(required)) if required else ""
 

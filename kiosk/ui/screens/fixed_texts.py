@@ -16,6 +16,7 @@ FIXED = (
     "consent-optional",
     "consent-agreed",
     "consent-missing",
+    "consent-ready",
     "consent-choose",
     "consent-agree",
     "consent-decline",

@@ -42,6 +42,8 @@ consent-waits =
         [one] Kreuze das nötige Kästchen an, um teilzunehmen
        *[other] Kreuze die { $number } nötigen Kästchen an, um teilzunehmen
     }
+# In its place, once all of them have a tick.
+consent-ready = Mehr ist nicht nötig.
 # Above both answers, as long as boxes that are needed have no tick.
 consent-to-go =
     { $number ->
