@@ -587,7 +587,7 @@ def test_the_keys_beside_a_wide_page_keep_their_distance_from_the_helper(make_bo
 
 
 @pytest.mark.parametrize("right", [False, True])
-@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])
+@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1280, 800), (1366, 768), (1080, 1920), (540, 960)])
 def test_the_tail_of_a_number_s_keys_joins_their_edge_to_that_of_the_question(
     make_booth: MakeBooth, qtbot: QtBot, width: int, height: int, *, right: bool
 ) -> None:
@@ -608,16 +608,16 @@ def test_the_tail_of_a_number_s_keys_joins_their_edge_to_that_of_the_question(
     if height > width:
         gap = tip.top() - card.bottom()
         line = [QPointF(at, around.top() + 6) for at in range(round(around.left()) + 40, round(around.right()) - 40)]
-        mouth = QPointF(tip.center().x(), around.top() + 2)
+        mouth = [QPointF(tip.center().x(), around.top() + at) for at in range(1, 8)]
     else:
         gap = max(tip.left() - card.right(), card.left() - tip.right())
         edge, inwards = (around.left(), 1) if tip.left() < around.left() else (around.right(), -1)
         line = [QPointF(edge + 6 * inwards, at) for at in range(round(around.top()) + 40, round(around.bottom()) - 40)]
-        mouth = QPointF(edge + 2 * inwards, tip.center().y())
+        mouth = [QPointF(edge + at * inwards, tip.center().y()) for at in range(1, 8)]
     assert gap == pytest.approx(0, abs=1)
     # Inside of the keys' edge nothing is left of the tail's, and that edge is open where the tail leaves it.
     picture, ratio = window.grabWindow(), window.devicePixelRatio()
-    colors = {picture.pixelColor((point * ratio).toPoint()).name() for point in [*line, mouth]}
+    colors = {picture.pixelColor((point * ratio).toPoint()).name() for point in [*line, *mouth]}
     assert colors == {QColor(keys.property("color")).name()}
 
 

@@ -147,15 +147,15 @@ Rectangle {
         x: keyboard.broad ? keyboard.where.aim.x - keyboard.x - width / 2 : after ? keyboard.width : -width
         y: keyboard.broad ? (after ? keyboard.height + width / 2 : -width / 2) - height / 2 : keyboard.where.aim.y - keyboard.y - height / 2
         rotation: (keyboard.broad ? 90 : 0) + (after ? 180 : 0)
-        // Without the line that is drawn around the keys between its ends.
+        // Without the line that is drawn around the keys between its ends, which is on whole pixels.
         ShapePath {
             fillColor: keyboard.color
             strokeColor: "transparent"
-            startX: tail.width + tail.line + 0.5 * Theme.unit; startY: 0
+            startX: tail.width + tail.line + 2; startY: 0
             PathLine { x: tail.width; y: 0 }
             PathLine { x: Theme.unit; y: tail.height / 2 }
             PathLine { x: tail.width; y: tail.height }
-            PathLine { x: tail.width + tail.line + 0.5 * Theme.unit; y: tail.height }
+            PathLine { x: tail.width + tail.line + 2; y: tail.height }
         }
         // Its line ends within the width of that one.
         ShapePath {
