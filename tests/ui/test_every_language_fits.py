@@ -77,7 +77,7 @@ MARGINS = 170
 """The most that a page which scrolls leaves free above and below, in pixels of a screen of 1080 lines."""
 SPEAKING = {"attract", "introduction", "practice", "game", "result", "thanks"}
 """The screens on which the helper says something."""
-RATED = {"trust", "four ratings", "six ratings", "four ratings, missing"}
+RATED = {"trust", "four ratings", "six ratings", "four ratings, missing", "ratings that may not apply"}
 """The pages on which the helper is rated, and turns its back."""
 LATER = {
     "form": {"about you", "about you, missing", "trust", "four ratings", "six ratings", "four ratings, missing"},
@@ -363,6 +363,7 @@ def pages() -> Iterator[tuple[str, tuple[Item, ...], dict[str, str] | None]]:
         ("trust", "trust", slice(None)),
         ("four ratings", "social-intelligence", slice(4)),
         ("six ratings", "social-intelligence", slice(4, 10)),
+        ("ratings that may not apply", "psi", slice(ASKED["psi"].per_page)),
     ):
         yield name, ASKED[of].items[among], ASKED[of].title
 
