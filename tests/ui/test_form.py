@@ -621,6 +621,30 @@ def test_the_tail_of_a_number_s_keys_joins_their_edge_to_that_of_the_question(
     assert colors == {QColor(keys.property("color")).name()}
 
 
+@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1280, 800), (1366, 768)])
+def test_the_edge_of_the_bubble_beside_a_page_is_open_where_its_tail_leaves_it(
+    make_booth: MakeBooth, qtbot: QtBot, width: int, height: int
+) -> None:
+    booth = make_booth()
+    window = booth.app.window
+    booth.app.screens.avatar.say("Take your time.", "")
+    about_you(booth, qtbot, width, height)
+    lay_out(window)
+    tails = [
+        place(item)
+        for item in items(window.contentItem())
+        if item.metaObject().className().startswith("SpeechTail") and item.isVisible()
+    ]
+    assert tails
+    picture = window.grabWindow()
+    for tail in tails:
+        half = tail.height() // 2
+        down = [picture.pixelColor(tail.center().x(), tail.top() + at).name() for at in range(-6, half)]
+        assert len(set(down)) == 1
+        # Its own line is there.
+        assert picture.pixelColor(tail.center().x(), tail.bottom() - 3).name() != down[0]
+
+
 @pytest.mark.parametrize("answered", [False, True])
 def test_the_way_on_below_an_upright_page_s_keys_can_be_read_and_is_not_filled(
     make_booth: MakeBooth, qtbot: QtBot, *, answered: bool
