@@ -19,7 +19,7 @@ from kiosk.ui.screens.debrief import QUIET_MODULES
 from kiosk.ui.simulated_visitor import lay_out
 from tests.samples import CATALOGUES, ENGLISH
 from tests.ui.conftest import Booth
-from tests.ui.looking import items, lies_in
+from tests.ui.looking import items, lies_in, painted
 
 PAGE = Page(title="What we study", paragraphs=("There are two versions.",))
 MAIL, CODE = "study@university.test", "ROME2345-7KQ2M-XR4T4"
@@ -313,10 +313,11 @@ def test_on_an_upright_page_two_points_stand_on_cards_with_their_drawings_above_
     qtbot.waitUntil(lambda: place("Point 1").y() == place("Point 2").y() < place("Point 3.").y())
     assert place("Point 0.").y() < place("Point 1").y()
     assert place("Point 3.").y() < place("It is no test.").y()
-    # The words begin where the drawing does, below it.
-    drawing = parts(booth, "PointDrawing")[0]
-    assert drawing.height() >= 120
-    assert place("Point 1").x() == drawing.left()
+    # The words stand below the drawing, both in the middle of their card.
+    drawing, card = parts(booth, "PointDrawing")[0], parts(booth, "PointCard")[1]
+    assert drawing.height() >= 240
+    assert drawing.center().x() == pytest.approx(card.center().x(), abs=1)
+    assert painted(written["Point 1"]).center().x() == pytest.approx(card.center().x(), abs=2)
     assert place("Point 1").y() > drawing.bottom()
 
 
@@ -366,11 +367,14 @@ def test_the_shipped_debriefing_is_about_its_two_versions_drawn_with_cards_of_th
     shown_at(booth, qtbot, "debrief", width, height)
     written = texts(booth)
     for version in page.paragraphs[1:3]:
-        assert written[version.split("\n")[0]].property("font").pixelSize() >= 44
+        heading = written[version.split("\n")[0]]
+        assert heading.property("font").pixelSize() >= (38 if width > height else 44)
+        assert heading.property("lineCount") <= 2
     seen, chance = kinds(booth, "CardFace")
     assert (seen.property("up"), chance.property("up")) == (True, False)
     assert seen.property("picture") == booth.app.screens.result.property("pictures")[0]
-    assert min(seen.width(), chance.width()) >= 120
+    assert seen.width() == chance.width()
+    assert seen.width() >= (240 if width < height else 170 if language == "en" else 140)
     assert 220 <= booth.item("qr").width() <= 290
     bubble = next(
         (item for text, item in written.items() if text and lies_in(item, "Bubble") and "Memo" not in text), None
@@ -385,7 +389,20 @@ def test_the_debriefing_on_a_wide_screen_has_letters_of_three_sizes(booth: Booth
     shown_at(booth, qtbot, "debrief", 1920, 1080)
     shown = [item for item in items(booth.app.window.contentItem()) if lies_in(item, "DebriefPoints", "TakeHomeCard")]
     letters = [item for item in shown if item.inherits("QQuickText") and item.property("text")]
-    assert {item.property("font").pixelSize() for item in letters} == {36, 48, 64}
+    assert {item.property("font").pixelSize() for item in letters} == {36, 40, 64}
+
+
+@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])
+def test_the_white_around_the_qr_code_keeps_clear_of_the_edges_of_its_strip(
+    booth: Booth, qtbot: QtBot, width: int, height: int
+) -> None:
+    booth.app.screens.debrief.show(Information.of(ASSETS / "consent" / "study", "en").debrief)
+    booth.app.screens.debrief.give_code("WWWWW-WWWWW")
+    shown_at(booth, qtbot, "debrief", width, height)
+    (strip,) = parts(booth, "TakeHomeCard")
+    white = bounds(booth.item("qr").childItems()[0])
+    assert white.contains(bounds(booth.item("qr")))
+    assert min(white.top() - strip.top(), strip.bottom() - white.bottom(), white.left() - strip.left()) >= 23.5
 
 
 @pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])

@@ -12,6 +12,8 @@ Item {
     property string sign: ""
     readonly property bool signed: sign !== ""
     property bool strong: false
+    // Whether the words stand in the middle of their width.
+    property bool inMiddle: false
     property real size: Theme.body
     property real leadSize: size
     property real leading: 1.08
@@ -55,7 +57,7 @@ Item {
             width: parent.width
             visible: text !== ""
             text: line.lead
-            horizontalAlignment: Text.AlignLeft
+            horizontalAlignment: line.inMiddle ? Text.AlignHCenter : Text.AlignLeft
             font { pixelSize: line.leadSize; bold: true }
             lineHeight: line.leading
         }
@@ -63,7 +65,7 @@ Item {
             width: parent.width
             // A number stays with what it counts.
             text: (line.lead === "" ? line.text : line.text.slice(line.lead.length + 1)).replace(/(\d) /g, "$1\u00a0")
-            horizontalAlignment: Text.AlignLeft
+            horizontalAlignment: line.inMiddle ? Text.AlignHCenter : Text.AlignLeft
             font { pixelSize: line.size; bold: line.strong }
             lineHeight: line.leading
         }

@@ -33,14 +33,14 @@ Rectangle {
     readonly property bool runsOn: plain && !flows && pairs.runsOn(point.text, size)
     readonly property real inset: plain ? 0 : Theme.gap
 
-    height: plain ? tall : Math.max(tall, pairs.least) + 2 * inset
+    height: plain ? tall : tall + 2 * inset
     radius: Theme.radius
     color: plain ? "transparent" : Theme.white
     border { color: Theme.edge; width: plain ? 0 : 3 * Theme.unit }
     PointDrawing {
         id: drawing
         visible: !card.plain
-        x: Theme.across(card.inset, width, card.width)
+        x: card.pairs.above ? (card.width - width) / 2 : Theme.across(card.inset, width, card.width)
         y: card.pairs.above ? card.inset : (card.height - height) / 2
         width: card.pairs.side
         sign: card.point.sign
@@ -62,6 +62,8 @@ Rectangle {
         size: card.pairs.bodyOf(card.size)
         leading: card.page.leading
         strong: card.page.isHeading(text)
+        // Below its drawing, in the middle as that is.
+        inMiddle: !card.plain && card.pairs.above
     }
     Balanced {
         id: flow

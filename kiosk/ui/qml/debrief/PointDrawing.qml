@@ -22,9 +22,9 @@ Item {
     }
     CardFace {
         visible: drawing.ofCards
-        x: Theme.across(0.02 * drawing.width, width, drawing.width)
+        x: Theme.across(0, width, drawing.width)
         y: drawing.height - height
-        width: Math.floor(0.84 * drawing.width)
+        width: Math.floor(0.95 * drawing.width)
         height: width
         back: drawing.back
         shadow: drawing.shadow
@@ -35,7 +35,7 @@ Item {
     Sign {
         visible: drawing.ofCards
         x: Theme.across(drawing.width - width, width, drawing.width)
-        width: 0.5 * drawing.width
+        width: 0.45 * drawing.width
         border { color: Theme.white; width: 5 * Theme.unit }
         sign: drawing.open ? "eye" : drawing.sign
     }
