@@ -1018,7 +1018,7 @@ def test_an_option_is_high_enough_for_a_finger(kiosk: tuple[Window, StudyConfig]
         item for item in controls(kiosk[0].shown.contentItem()) if item.objectName().startswith("option-gender-")
     ]
     assert len(options) > 1
-    assert min(option.height() for option in options) >= 76
+    assert min(option.height() for option in options) >= 70
 
 
 @pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)

@@ -501,14 +501,28 @@ def test_the_options_of_all_questions_stand_in_the_same_two_columns(
     assert not booth.sees("more")
     columns = [(option.x(), option.width()) for option in asked[0][:2]]
     assert columns[0][1] == columns[1][1]
-    whole = columns[1][0] + columns[1][1]
     for options in asked:
-        # The last of an odd number takes its row.
-        expected = columns * 2 + ([(columns[0][0], pytest.approx(whole))] if len(options) % 2 else [])
-        assert [(option.x(), option.width()) for option in options] == expected
+        # The last of an odd number is as wide as the others.
+        assert [(option.x(), option.width()) for option in options] == (columns * 3)[: len(options)]
         for left, right in zip(options[::2], options[1::2], strict=False):
             assert (left.y(), left.height()) == (right.y(), right.height())
         assert max(option.height() for option in options) < 1.6 * min(option.height() for option in options)
+
+
+@pytest.mark.parametrize(("width", "height", "apart"), [(1920, 1080, 20), (1080, 1920, 24)])
+def test_options_and_questions_are_far_apart_where_the_page_has_room(
+    make_booth: MakeBooth, qtbot: QtBot, width: int, height: int, apart: int
+) -> None:
+    booth = make_booth()
+    _, options = about_you(booth, qtbot, width, height)
+    lay_out(booth.app.window)
+    first, second, below = options[:3]
+    assert second.x() - first.x() - first.width() == apart
+    assert below.y() - first.y() - first.height() == apart
+    upper, lower = booth.item("item-gender"), booth.item("item-robots")
+    between = lower.mapToScene(QPointF(0, 0)).y() - upper.mapToScene(QPointF(0, upper.height())).y()
+    assert between >= 27.5
+    assert not booth.sees("more")
 
 
 @pytest.mark.parametrize("language", ["en", "es", "it"])
@@ -546,7 +560,7 @@ def test_what_a_finger_meets_on_an_upright_page_is_as_high_as_the_way_on(make_bo
     asked = about_you(booth, qtbot, 1080, 1920)
     found = [*asked[0], *asked[1], booth.item("number-age")]
     assert {round(each.height()) for each in found} == {round(booth.item("continue").height())} == {112}
-    assert asked[0][2].y() - asked[0][0].y() == 132
+    assert asked[0][2].y() - asked[0][0].y() == 136
     # An option of many words has a second line for them.
     assert max(text.property("lineCount") for text in texts(asked[1][3])) == 2
 

@@ -191,9 +191,9 @@ PageFrame {
             room: shape.free
             more: view.words["scroll-more"]
             // How far cards stand from each other at least. Options in columns leave the height for more.
-            readonly property real least: plainQuestions.columns !== null ? 22 * Theme.unit : shape.gap
+            readonly property real least: plainQuestions.columns !== null ? plainQuestions.cardGap : shape.gap
             // Further apart where the page has room for it; and what belongs together, too.
-            readonly property real plain: summed(box => box.plain + (plainQuestions.columns !== null ? 22 : shape.ample ? 20 : shape.easy ? 24 : 30) * Theme.unit)
+            readonly property real plain: summed(box => box.plain + (plainQuestions.columns !== null ? plainQuestions.cardGap : (shape.ample ? 20 : shape.easy ? 24 : 30) * Theme.unit))
                 - (plainQuestions.columns !== null ? 12 * Theme.unit : 0)
             readonly property int optionRows: summed(box => box.optionRows)
             // Whether all options of each question are as high as its highest, where the page has room for that, and how much
@@ -214,7 +214,7 @@ PageFrame {
             }
             // How many times as many places as items the page has.
             readonly property real share: view.form.fullest > 0 ? shape.rows() / Math.max(1, shape.seen().length) : 1
-            spacing: Math.max(least, Math.min(ratingRows.table?.gap ?? (shape.upright ? 72 : view.wider ? 26 : 44) * Theme.unit,
+            spacing: Math.max(least, Math.min(ratingRows.table?.gap ?? (shape.upright ? 72 : view.wider ? 28 : 44) * Theme.unit,
                 (room - heads - share * (tall - heads)) / Math.max(1, boxes.count, view.form.fullest)))
             Repeater {
                 id: boxes

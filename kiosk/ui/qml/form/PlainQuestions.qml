@@ -11,7 +11,8 @@ QtObject {
 
     // How large the questions of a wide page are whose options all have the room for large letters.
     readonly property real asking: Theme.size(36)
-    // How large and how high such options are, and whether they fill their rows; null if they have no room.
+    // How large and how high such options are, how far they are apart, and whether they fill their rows; null if they have
+    // no room.
     readonly property var columns: !page.calm || page.upright || page.alone ? null : columned()
     // How large options are. Those of an upright page are as large as leaves them as many lines as the usual size does.
     readonly property real optionSize: columns?.size ?? (page.alone ? Theme.body : !page.airy ? Theme.reading
@@ -20,10 +21,13 @@ QtObject {
     // How much height can be filled. Small letters are set on whole pixels, which makes them higher.
     readonly property real sure: page.free - (Theme.unit < 0.9 ? 22 : 6) * Theme.unit
     // How high options are at least, and how far they are apart.
-    readonly property real optionHeight: columns !== null ? lowered()
+    readonly property real optionHeight: columns !== null ? lowered().height
         : (page.tight || (page.largeText && !page.large) || page.items.length > 3 ? 62 : page.airy ? 84 : 76) * Theme.unit
-    readonly property real gutter: (columns !== null ? wideGutter : page.easy ? 20 : page.airy ? 18 : page.large ? 14 : page.tight || page.largeText ? 8 : 12) * Theme.unit
-    readonly property real wideGutter: 14
+    readonly property real gutter: (columns !== null ? lowered().gutter : page.easy ? (Theme.textSize > 1 ? 20 : 24) : page.airy ? 18 : page.large ? 14 : page.tight || page.largeText ? 8 : 12) * Theme.unit
+    // How far options in columns are apart at most and at least. Cards are a little further from each other.
+    readonly property real widest: 20
+    readonly property real closest: 14
+    readonly property real cardGap: gutter + 8 * Theme.unit
     // How large the ring before an option's words is, and what there is before it, between both, and at the end.
     readonly property real ring: (page.easy ? 44 : 34) * Theme.unit
     readonly property real beforeRing: (page.largeText && !page.large ? 14 : 20) * Theme.unit
@@ -51,37 +55,45 @@ QtObject {
     function ranged(item: var): bool {
         return columns !== null && item.kind === "integer" && rangeFits(item)
     }
-    // The largest letters, and with them the highest options, with which all questions fit: in columns, or else in rows that
-    // are filled.
+    // The largest letters with which all questions fit: in columns, or else in rows that are filled. With them, the largest
+    // distances that leave options as high as they are easily hit, or else the highest options.
     function columned(): var {
         if (!page.items.every(item => item.kind === "integer" || item.kind === "single"))
             return null
         for (const filled of [false, true])
             for (const size of [34, 33, 32, 31, 30, 29].map(Theme.size)) {
-                const height = heights.find(height => pageHeight(size, height, filled) <= sure)
-                if (height !== undefined)
-                    return {size, height, filled}
+                for (const gutter of [widest, 18, 16, closest]) {
+                    const high = gutter === closest ? heights : heights.filter(height => height >= 70 * Theme.unit)
+                    const height = high.find(height => pageHeight(size, height, gutter, filled) <= sure)
+                    if (height !== undefined)
+                        return {size, height, gutter, filled}
+                }
             }
         return null
     }
-    // The height that options have then. Words that something is missing take some of it, where that leaves all in sight.
-    function lowered(): real {
+    // The height that options have then, and their distance. Words that something is missing take some of both, where that
+    // leaves all in sight.
+    function lowered(): var {
         const missing = page.items.filter(item => page.form.missing.includes(item.id))
         const words = missing.reduce((sum, item) => sum + (item.kind === "integer" ? 0.25 : 1) * (widths.leading * Theme.small + 12 * Theme.unit), 0)
-        return heights.find(height => height <= columns.height && pageHeight(columns.size, height, columns.filled) + words <= sure)
-            ?? columns.height
+        for (const gutter of [columns.gutter, closest]) {
+            const height = heights.find(height => height <= columns.height && pageHeight(columns.size, height, gutter, columns.filled) + words <= sure)
+            if (height !== undefined)
+                return {height, gutter}
+        }
+        return columns
     }
-    // How high the page is with options in this size and so high. Below the last card no distance is needed.
-    function pageHeight(size: real, height: real, filled: bool): real {
-        const gap = wideGutter * Theme.unit
+    // How high the page is with options in this size, so high and so far apart. Below the last card no distance is needed.
+    function pageHeight(size: real, height: real, gutter: real, filled: bool): real {
+        const gap = gutter * Theme.unit, further = (gutter - closest) * Theme.unit
         return page.seen().reduce((sum, item) => {
             if (item.kind === "integer")
-                return sum + (rangeFits(item) ? 130 : 138) * Theme.unit
+                return sum + (rangeFits(item) ? 130 : 138) * Theme.unit + further
             const lines = Math.ceil(widths.bold(item.text, asking) / page.inner)
             const rows = filled ? filledRows(item, size, gap).map(() => 1) : rowLines(item, size, columnsOf(item, size))
             return sum + lines * widths.leading * asking + 50 * Theme.unit
                 + rows.reduce((all, lines) => all + Math.max(height, lines > 1 ? textHeight(lines, size) : 0) + gap, 0)
-        }, -22 * Theme.unit)
+        }, -22 * Theme.unit - further)
     }
     // How high a wide page is without large options if those of each question are as wide as each other; NaN with other
     // kinds of items.
@@ -104,15 +116,16 @@ QtObject {
         if (page.alone && all <= 6)
             return 1
         const few = [6, 5, 4, 3, 2].find(columns => columns <= Math.min(all, most) && columns === Math.ceil(all / Math.ceil(all / columns))
-            && item.options.every((option, at) => optionWidth(option, size) <= wordsRoom(columns, spanOf(item, at, columns))))
+            && item.options.every((option, at) => optionWidth(option, size) <= wordsRoom(columns, spanOf(item, at, columns, size))))
         if (few !== undefined)
             return few
         const rows = rowLines(item, size, 2), usual = 62 * Theme.unit
         return Math.max(...rows) <= 2 && rows.reduce((sum, lines) => sum + Math.max(usual, textHeight(lines, size)), 0) < all * usual ? 2 : 1
     }
-    // How many of the columns an option takes: the last one takes all that its row has left.
-    function spanOf(item: var, at: int, columns: int): int {
-        return at === item.options.length - 1 ? columns - at % columns : 1
+    // How many of the columns an option takes: one, so that all have one size. The last one takes what its row has left if
+    // its words need that.
+    function spanOf(item: var, at: int, columns: int, size: real): int {
+        return at === item.options.length - 1 && optionWidth(item.options[at], size) > wordsRoom(columns, 1) ? columns - at % columns : 1
     }
     // How wide an option is that takes so many of the columns.
     function tileWidth(columns: int, span: int, gutter: real): real {
@@ -120,7 +133,7 @@ QtObject {
     }
     // How much width words have in it.
     function wordsRoom(columns: int, span: int): real {
-        return Math.floor(tileWidth(columns, span, page.upright ? gutter : wideGutter * Theme.unit)) - around
+        return Math.floor(tileWidth(columns, span, page.upright ? gutter : widest * Theme.unit)) - around
     }
     // How many lines an option has there; many if a word of it has no room.
     function optionLinesOf(option: var, size: real, room: real): int {
@@ -133,7 +146,7 @@ QtObject {
         const rows = []
         item.options.forEach((option, at) => {
             const row = Math.floor(at / columns)
-            rows[row] = Math.max(rows[row] ?? 1, columns === 1 ? 1 : optionLinesOf(option, size, wordsRoom(columns, spanOf(item, at, columns))))
+            rows[row] = Math.max(rows[row] ?? 1, columns === 1 ? 1 : optionLinesOf(option, size, wordsRoom(columns, spanOf(item, at, columns, size))))
         })
         return rows
     }
@@ -145,7 +158,8 @@ QtObject {
             if (filled.length < equal.reduce((all, lines) => all + lines, 0))
                 return filled.map(widths => ({widths, lines: 1}))
         }
-        return equal.map((lines, row) => ({lines, widths: item.options.slice(row * columns, (row + 1) * columns).map((_, at) => tileWidth(columns, spanOf(item, row * columns + at, columns), gutter))}))
+        const wide = item.options.map((_, at) => tileWidth(columns, spanOf(item, at, columns, size), gutter))
+        return equal.map((lines, row) => ({lines, widths: wide.slice(row * columns, (row + 1) * columns)}))
     }
     // As many options in each row as have room there, as wide as each other if they can be, and else as their words need.
     // Each row ends where the others do.
