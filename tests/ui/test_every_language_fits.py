@@ -736,14 +736,28 @@ def test_all_points_of_a_page_of_ratings_have_the_same_ground(
 
 
 @pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)
-def test_scales_of_a_page_with_fewer_ratings_stand_where_they_do_on_the_full_ones(
+def test_a_page_with_fewer_ratings_has_higher_cards_and_scales_in_the_columns_of_the_full_ones(
     kiosk: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
     full, fewer = rating_pages(kiosk, layout, SIXTEEN[:4] + ASKED["trust"].items)
-    assert [len(full), len(fewer)] == [4, 3]
-    for (_, card, _, scale), (_, other, _, others) in zip(full, fewer, strict=False):
-        assert card.getRect() == pytest.approx(other.getRect(), abs=1)
-        assert scale.getRect() == pytest.approx(others.getRect(), abs=1)
+    again, fewest = rating_pages(kiosk, layout, SIXTEEN[:4] + ASKED["trust"].items[:2])
+    assert [len(full), len(fewer), len(again), len(fewest)] == [4, 3, 4, 2]
+    _, usual, _, points = full[0]
+    for page in (fewer, fewest):
+        assert page[0][1].top() == pytest.approx(usual.top(), abs=1)
+        assert {gap - gaps(full)[0] for gap in gaps(page)} <= {-1, 0, 1}
+        assert len({round(card.height()) for _, card, _, _ in page}) == 1
+        for _, card, _, scale in page:
+            assert [card.left(), card.width()] == pytest.approx([usual.left(), usual.width()], abs=1)
+            assert [scale.left(), scale.width()] == pytest.approx([points.left(), points.width()], abs=1)
+            assert scale.height() == pytest.approx(points.height(), abs=1)
+            # What the card has more is as much above as below.
+            assert scale.center().y() - card.center().y() == pytest.approx(
+                points.center().y() - usual.center().y(), abs=1
+            )
+    # The last of three ends where that of four does. Two are no higher than in the place of three, or they look empty.
+    assert fewer[-1][1].bottom() == pytest.approx(full[-1][1].bottom(), abs=3)
+    assert fewest[-1][1].height() == pytest.approx(1.5 * usual.height() + gaps(full)[0] / 2, abs=1)
 
 
 @pytest.mark.parametrize("language", SHIPPED)

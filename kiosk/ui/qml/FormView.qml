@@ -206,7 +206,7 @@ PageFrame {
                 : Math.max(0, Math.floor((room - plain - (even ? uneven : 0)) / optionRows))
             readonly property real addable: summed(box => box.addable)
             readonly property real loosened: (shape.calm || shape.rated) && addable > 0 ? Math.max(0, Math.min(1, (room / share - plain - optionRows * grown) / addable)) : 0
-            readonly property real tall: summed(box => box.height)
+            readonly property real tall: summed(box => box.least)
             readonly property real heads: summed(box => box.head)
             // Adds up what each item that is there has of something.
             function summed(of: var): real {
@@ -216,6 +216,12 @@ PageFrame {
             readonly property real share: view.form.fullest > 0 ? shape.rows() / Math.max(1, shape.seen().length) : 1
             spacing: Math.max(least, Math.min(ratingRows.table?.gap ?? (shape.upright ? 72 : view.wider ? 28 : 44) * Theme.unit,
                 (room - heads - share * (tall - heads)) / Math.max(1, boxes.count, view.form.fullest)))
+            // The cards of a page with fewer of them than the fullest one with its scale are higher: the last ends where
+            // that page's last does. The limit is what two cards in the place of three need: higher ones look empty.
+            readonly property int absent: Math.max(0, view.form.fullest - view.form.items.length)
+            readonly property real usual: (tall - heads) / Math.max(1, shape.seen().length)
+            readonly property real stretched: absent === 0 ? 0 : Math.max(0, Math.floor(Math.min((usual + spacing) / 2,
+                absent * (usual + spacing) / view.form.items.length, (room + spacing - tall) / Math.max(1, shape.seen().length) - spacing)))
             Repeater {
                 id: boxes
                 model: view.form.items
@@ -230,6 +236,7 @@ PageFrame {
                     questions: plainQuestions
                     loosened: pane.loosened
                     grown: pane.grown
+                    stretched: pane.stretched
                     even: pane.even
                     // Over an upright page the keys cover other questions: these step back until they can be seen again.
                     opacity: keyboard.card === asked || !view.under ? 1 : 0.3

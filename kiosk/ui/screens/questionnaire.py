@@ -145,7 +145,7 @@ class FormScreen(QObject):
         """Show a page, ``number`` ``of`` so many, but for its hidden items; nothing is answered.
 
         Without a ``title`` in any language, it has the one that all forms have. Pages that are ``alike`` are laid out
-        as the fullest of them, so that their scales stand at the same places.
+        as the fullest of them, so that their scales are as large and stand in the same columns.
         """
         self._items, self._number, self._of = items, number, of
         self._title, self._alike = title, alike

@@ -21,6 +21,8 @@ Item {
     // options are.
     property real loosened: 0
     property real grown: 0
+    // How much higher than its content asks it is, where the page has fewer cards than others with its scale.
+    property real stretched: 0
     // Whether all options of it are as high as the highest.
     property bool even: false
     // Whether the keys on the screen type into it.
@@ -57,8 +59,8 @@ Item {
         return sizes.map(size => Theme.size(size)).find(size => page.widths.lines(item.shown, size, page.inner) <= most) ?? Theme.size(52)
     }
     // How much height its question and its scale leave of what two lines and a scale of five points take: on such a page
-    // all cards are as high, and cards and scales stand at the same places on all pages. A question of one line stands in
-    // the middle of the height of two.
+    // all cards are as high, and cards and scales stand at the same places on all pages with as many. A question of one
+    // line stands in the middle of the height of two.
     readonly property real lacks: page.ample ? Math.max(0, Math.ceil((1 + question.lineHeight) * lineOf.height) - told.height) : 0
     readonly property real leaves: lacks + (page.ample ? 2 * ((way.item as PointScale)?.inset ?? 0) : 0)
     readonly property real asks: told.height + leaves
@@ -116,7 +118,9 @@ Item {
     // Whether it is the first card of a table, which the band with these words is joined to.
     readonly property bool topped: rows.table !== null && headed
 
-    height: Math.max(head + content.height + 2 * margin, page.solo ? page.cleared : 0)
+    // How high it is without that.
+    readonly property real least: Math.max(head + content.height + 2 * margin, page.solo ? page.cleared : 0)
+    height: least + stretched
 
     TableHead {
         objectName: "table-head"
@@ -326,7 +330,7 @@ Item {
             flank: box.rows.flank
             table: box.rows.table
             crowned: box.crowned
-            lift: box.rows.own ? 0 : box.usualMargin + asked.middle - size / 2 + 8 * Theme.unit
+            lift: box.rows.own ? 0 : box.usualMargin + box.stretched / 2 + asked.middle - size / 2 + 8 * Theme.unit
             item: box.item.id
             label: box.item.text
             points: box.item.points

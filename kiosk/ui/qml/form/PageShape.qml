@@ -19,8 +19,8 @@ QtObject {
     readonly property bool alone: items.length === 1
     // Whether it is one rating of any kind: it has a card as wide as those of several.
     readonly property bool solo: alone && ["likert", "differential", "pictures", "slider"].includes(items[0].kind)
-    // How many items it is laid out for: as many as the fullest page has that asks on the same scale. So points stand at
-    // the same places on all of these.
+    // How many items it is laid out for: as many as the fullest page has that asks on the same scale. So points are as
+    // large on all of these and stand in the same columns.
     readonly property int places: alone ? 1 : Math.max(items.length, form.fullest)
     readonly property bool dense: places > 4
     // Whether there is little height for what stands on the page.
