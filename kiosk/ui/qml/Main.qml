@@ -225,7 +225,7 @@ Window {
                 prepares: root.prepares
                 said: helper.says
                 lent: Math.max(0, layout.helperReach - Theme.gap)
-                spoken: !layout.accompanied ? 0 : root.boardOnRight ? -1 : 1
+                Binding on spoken { when: boardPage.follows; value: !layout.accompanied ? 0 : root.boardOnRight ? -1 : 1; restoreMode: Binding.RestoreNone }
                 faceAt: layout.wide || !root.avatar.present ? 0 : helper.y + helper.faceTop - stage.y
                 told: prompt.tells
                 onWon: if (!root.board.practice) feast.begin()

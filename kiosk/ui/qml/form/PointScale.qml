@@ -50,7 +50,7 @@ Item {
     readonly property real size: full ? Math.min(wish, filling) : joined ? Math.floor(width) / points : spread ? Math.min(76 * Theme.unit, filling) : (flank ?? table)?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
     // How high they are: much smaller ones that are given that height take it, and are easier to hit.
     readonly property bool evened: even && below && !alone && !pictured
-    readonly property bool long: joined || evened && size < 0.85 * wish
+    readonly property bool long: joined || (evened ? size < 0.85 * wish : full && !pictured && size < 0.7 * wish)
     readonly property real tall: long ? wish : size
     // How much of that height they leave, above themselves and below.
     readonly property real inset: evened ? Math.max(0, (wish - tall) / 2) : 0
