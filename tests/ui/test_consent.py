@@ -96,7 +96,8 @@ def test_a_ticked_box_says_that_it_is_agreed_to_and_moves_nothing(booth: Booth) 
 @pytest.mark.usefixtures("done")
 def test_what_is_scrolled_away_is_not_drawn_over_the_title(booth: Booth) -> None:
     booth.app.window.setProperty("textSize", 1.5)
-    booth.app.screens.consent.show(booth.app.assigner.study.plans[0].information.consent)
+    booth.app.screens.consent.show(PAGE.model_copy(update={"paragraphs": PAGE.paragraphs * 40}))
+    booth.settle()
     title = booth.item("page-title")
     strip = title.mapRectToScene(QRectF(0, 0, title.width(), title.height())).toRect()
     unscrolled = booth.app.window.grabWindow().copy(strip)
@@ -120,21 +121,24 @@ def test_a_double_click_is_one_tick(booth: Booth, done: Done) -> None:
     assert done == [("store", True)]
 
 
-def test_a_line_above_both_answers_says_what_is_to_go_until_the_required_boxes_are_ticked(
-    booth: Booth, done: Done
-) -> None:
-    heading = "To take part, tick the 2 boxes that are needed"
-    lines = ["To take part: 2 boxes to go", "To take part: one box to go", "Now choose below."]
-    ticked: list[frozenset[str]] = [frozenset(), REQUIRED - {"store"}, REQUIRED]
-    for line, ticks in zip(lines, ticked, strict=True):
+def test_the_heading_alone_says_what_is_to_be_ticked_until_the_required_boxes_are(booth: Booth, done: Done) -> None:
+    booth.app.screens.consent.show(SHORT)
+    headings = [
+        "To take part, tick the 2 boxes that are needed",
+        "To take part, tick one more box",
+        "That is all that is needed. Now choose below.",
+    ]
+    # A tick that is up to the visitor changes nothing.
+    ticked = [frozenset({"share"}), REQUIRED - {"store"}, REQUIRED]
+    for heading, ticks in zip(headings, ticked, strict=True):
         booth.app.screens.consent.show_ticks(ticks)
-        assert booth.item("ways-line").property("text") == line
-        assert booth.item("consent-waits").property("text") == (
-            "That is all that is needed." if ticks == REQUIRED else heading
-        )
+        lay_out(booth.app.window)
+        assert booth.item("consent-waits").property("text") == heading
+        shown = [text.property("text") for text in texts(booth.app.window.contentItem())]
+        assert [text for text in shown if "2 boxes" in text or "choose" in text or "more box" in text] == [heading]
         told = QAccessible.queryAccessibleInterface(booth.item("agree"))
         assert isinstance(told, QAccessibleInterface)
-        assert told.text(QAccessible.Text.Description) == ("" if ticks == REQUIRED else line)
+        assert told.text(QAccessible.Text.Description) == ("" if ticks == REQUIRED else heading)
     booth.app.screens.consent.show_ticks(frozenset())
     booth.click("agree")
     assert done == ["agreed"]
@@ -143,7 +147,30 @@ def test_a_line_above_both_answers_says_what_is_to_go_until_the_required_boxes_a
 @pytest.mark.usefixtures("done")
 @pytest.mark.parametrize("language", ["en", "es", "it", "de", "ar"])
 @pytest.mark.parametrize("size", [(1920, 1080), (1080, 1920)], ids=["wide", "upright"])
-def test_the_line_is_large_and_close_above_the_answers_and_clear_of_the_boxes(
+def test_the_heading_is_as_large_in_one_line_whatever_it_says(
+    booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
+) -> None:
+    window = booth.app.window
+    booth.app.screens.set_language(WORDS.get(language, ENGLISH))
+    booth.app.screens.kiosk.begin((language,), language, Settings().consent)
+    booth.app.screens.consent.show(SHORT)
+    window.resize(*size)
+    qtbot.waitUntil(lambda: window.contentItem().width() == size[0])
+    heights = set()
+    for ticks in (frozenset[str](), REQUIRED - {"store"}, REQUIRED):
+        booth.app.screens.consent.show_ticks(ticks)
+        lay_out(window)
+        heading = booth.item("consent-waits")
+        assert heading.property("lineCount") == 1
+        # Words that are too long for the line have smaller letters.
+        heights.add(round(painted(heading).height()))
+    assert len(heights) == 1
+
+
+@pytest.mark.usefixtures("done")
+@pytest.mark.parametrize("language", ["en", "es", "it", "de", "ar"])
+@pytest.mark.parametrize("size", [(1920, 1080), (1080, 1920)], ids=["wide", "upright"])
+def test_both_answers_have_room_around_their_words_and_are_clear_of_the_boxes(
     booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
 ) -> None:
     window = booth.app.window
@@ -154,16 +181,10 @@ def test_the_line_is_large_and_close_above_the_answers_and_clear_of_the_boxes(
     window.resize(*size)
     qtbot.waitUntil(lambda: window.contentItem().width() == size[0])
     lay_out(window)
-    line, decline, agree = (booth.item(name) for name in ("ways-line", "decline", "agree"))
+    decline, agree = (booth.item(name) for name in ("decline", "agree"))
     both = place(decline).united(place(agree))
-    assert line.property("font").pixelSize() >= 34
-    assert line.property("color") == booth.item("page-title").property("color")
-    # It begins where the page's headings do.
-    first, over = painted(line), painted(booth.item("consent-waits"))
-    begins = (first.right(), over.right()) if language == "ar" else (first.left(), over.left())
-    assert begins[0] == pytest.approx(begins[1], abs=3)
-    assert both.top() - place(line).bottom() == pytest.approx(24, abs=2)
-    assert place(line).top() >= place(booth.item("purpose-share")).bottom() + 12
+    assert both.top() - place(booth.item("purpose-share")).bottom() >= 46
+    assert min(place(booth.item(f"purpose-{purpose.id}")).height() for purpose in SHORT.purposes) >= 100
     # As much is free at both ends of either.
     for answer in (decline, agree):
         (words,) = texts(answer)
@@ -280,6 +301,8 @@ def test_on_an_upright_screen_points_and_boxes_are_all_seen_at_once(
     booth.settle()
     assert booth.sees("purpose-share")
     assert not booth.sees("more")
+    # Larger texts do not cost the page its headings.
+    assert booth.sees("consent-optional")
     if scale == 1:
         read = [text for text in texts(window.contentItem()) if lies_in(text, "SignedLine", "TickBox")]
         assert min(text.property("font").pixelSize() for text in read) >= 36

@@ -36,22 +36,20 @@ consent-required = needed
 consent-optional = up to you
 consent-agreed = agreed
 consent-missing = Please tick this box if you want to take part.
-# Above the boxes that are needed.
+# Above the boxes that are needed, as long as none of them has a tick.
 consent-waits =
     { $number ->
         [one] To take part, tick the box that is needed
        *[other] To take part, tick the { $number } boxes that are needed
     }
-# In its place, once all of them have a tick.
-consent-ready = That is all that is needed.
-# Above both answers, as long as boxes that are needed have no tick.
+# In its place, as long as only some of them have one.
 consent-to-go =
     { $number ->
-        [one] To take part: one box to go
-       *[other] To take part: { $number } boxes to go
+        [one] To take part, tick one more box
+       *[other] To take part, tick { $number } more boxes
     }
 # In its place, once all of them have one. It must favour neither answer.
-consent-choose = Now choose below.
+consent-ready = That is all that is needed. Now choose below.
 consent-agree = I take part
 consent-decline = Play without taking part
 consent-more = Read all of it

@@ -37,22 +37,20 @@ consent-required = necesario
 consent-optional = como prefieras
 consent-agreed = de acuerdo
 consent-missing = Si quieres participar, marca esta casilla.
-# Above the boxes that are needed.
+# Above the boxes that are needed, as long as none of them has a tick.
 consent-waits =
     { $number ->
         [one] Para participar, marca la casilla necesaria
        *[other] Para participar, marca las { $number } casillas necesarias
     }
-# In its place, once all of them have a tick.
-consent-ready = No hace falta nada más.
-# Above both answers, as long as boxes that are needed have no tick.
+# In its place, as long as only some of them have one.
 consent-to-go =
     { $number ->
-        [one] Para participar falta una casilla
-       *[other] Para participar faltan { $number } casillas
+        [one] Para participar, marca una casilla más
+       *[other] Para participar, marca { $number } casillas más
     }
 # In its place, once all of them have one. It must favour neither answer.
-consent-choose = Ahora elige abajo.
+consent-ready = No hace falta nada más. Ahora elige abajo.
 consent-agree = Participo
 consent-decline = Jugar sin participar
 consent-more = Leer todo

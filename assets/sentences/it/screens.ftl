@@ -37,22 +37,20 @@ consent-required = necessario
 consent-optional = come preferisci
 consent-agreed = d'accordo
 consent-missing = Se vuoi partecipare, spunta questa casella.
-# Above the boxes that are needed.
+# Above the boxes that are needed, as long as none of them has a tick.
 consent-waits =
     { $number ->
         [one] Per partecipare, spunta la casella necessaria
        *[other] Per partecipare, spunta le { $number } caselle necessarie
     }
-# In its place, once all of them have a tick.
-consent-ready = È tutto ciò che serve.
-# Above both answers, as long as boxes that are needed have no tick.
+# In its place, as long as only some of them have one.
 consent-to-go =
     { $number ->
-        [one] Per partecipare manca una casella
-       *[other] Per partecipare mancano { $number } caselle
+        [one] Per partecipare, spunta ancora una casella
+       *[other] Per partecipare, spunta ancora { $number } caselle
     }
 # In its place, once all of them have one. It must favour neither answer.
-consent-choose = Ora scegli qui sotto.
+consent-ready = È tutto ciò che serve. Ora scegli qui sotto.
 consent-agree = Partecipo
 consent-decline = Gioco senza partecipare
 consent-more = Leggi tutto

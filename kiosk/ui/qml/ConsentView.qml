@@ -20,8 +20,8 @@ PageFrame {
     // apart its groups are, and how many are in a box above and below its words. Whether it has the largest of all, and
     // whether even the smallest are too large.
     readonly property bool upright: width < height
-    readonly property var sizes: upright ? [[38, 36, 1, 0.8], [38, 36, 0.7, 0.6], [36, 36, 0.6, 0.5], [36, 36, 0.4, 0.35], [34, 33, 0.6, 0.4], [34, 33, 0.4, 0.35]]
-        : [[34, 33, 0.9, 0.5], [34, 33, 0.6, 0.35], [32, 31, 0.6, 0.35], [32, 31, 0.4, 0.25], [30, 29, 0.4, 0.25]]
+    readonly property var sizes: upright ? [[38, 36, 1, 0.8], [38, 36, 0.7, 0.6], [36, 36, 0.6, 0.5], [36, 36, 0.4, 0.35], [34, 33, 0.6, 0.4], [34, 33, 0.4, 0.35], [32, 31, 0.4, 0.25]]
+        : [[34, 33, 0.9, 0.8], [34, 33, 0.9, 0.5], [34, 33, 0.6, 0.35], [32, 31, 0.6, 0.35], [32, 31, 0.4, 0.25], [30, 29, 0.4, 0.25]]
     readonly property int fitting: short ? sizes.findIndex(([point, box, apart, inside]) => tall(point, box, apart, inside) <= pane.room) : -1
     // How far a heading keeps from what is above it, of which its own line has a part above its letters.
     readonly property real clear: (upright ? 48 : 36) * Theme.unit - 0.3 * Theme.size(36)
@@ -56,8 +56,6 @@ PageFrame {
     way.name: "agree"
     way.even: true
     way.reason: consent.toGo
-    // What is still to be done, or that there is a choice now, right above both answers. It must favour neither.
-    way.above: consent.toGo || words["consent-choose"]
     way.otherName: "decline"
     onWent: consent.agree()
     onTurnedDown: consent.decline()
@@ -110,7 +108,7 @@ PageFrame {
             id: pane
             width: parent.width
             // The boxes keep some distance from the answers below, but where large texts need the room.
-            room: view.room - Math.max(0, view.way.over - 0.5 * Theme.gap) - (Theme.textSize > 1.15 ? 0 : (view.upright ? 1 : 0.5) * Theme.gap)
+            room: view.room - Math.max(0, view.way.over - 0.5 * Theme.gap) - (Theme.textSize > 1.15 ? 0 : (view.upright && Theme.textSize <= 1 ? 1.5 : 0.5) * Theme.gap)
             more: view.words["scroll-more"]
             // What there is to tick stands apart from what is read, as far as the page has room.
             spacing: view.upright && boxes.grouped ? boxes.before : Math.max(0.5 * Theme.gap, Math.min((view.upright ? 3.4 : 2.2) * Theme.gap, room - (view.short ? points.height : sheet.height) - boxes.height))
@@ -200,7 +198,7 @@ PageFrame {
                 readonly property real further: !view.short || !points.airy ? 0 : view.upright && parted ? Math.max(0, before - spacing)
                     : Math.max(0, Math.min((view.upright ? 1.3 : points.columns > 1 ? 1 : 0.5) * Theme.gap, free - 1.6 * Theme.gap - (parted ? spacing : 0)))
                 spacing: (points.airy && view.short ? view.used[2] : Theme.textSize <= 1.15 ? 0.5 : 0.4) * Theme.gap
-                // What is to be ticked, or that it is.
+                // What is still to be ticked, or that there is a choice now.
                 PlainText {
                     id: waits
                     objectName: "consent-waits"
@@ -211,7 +209,8 @@ PageFrame {
                     visible: boxes.needs
                     width: boxes.width
                     height: Math.ceil(letters.height)
-                    text: view.consent.complete ? view.words["consent-ready"] : view.consent.asked
+                    text: view.consent.toGo || view.words["consent-ready"]
+                    onTextChanged: if (visible) Accessible.announce(waits.text, Accessible.Polite)
                     font { pixelSize: points.airy && view.short ? view.heads : Theme.reading; bold: true }
                     fontSizeMode: Text.HorizontalFit
                     minimumPixelSize: Theme.size(24)

@@ -17,8 +17,6 @@ FocusScope {
     property string reason: ""
     // The same in short, within it on an upright page.
     property string note: ""
-    // What stands in a line above the ways on, if anything.
-    property string above: ""
     // Whether the ways on take what the way back leaves of the width, with gaps as wide between all of them.
     property bool fills: false
     // What the other way on says, such as a no; and what the two are called.
@@ -65,9 +63,7 @@ FocusScope {
     readonly property real pile: Math.min(width - (returns ? back.width + Theme.gap : 0), Math.max(go.wish, no.wish))
     readonly property real step: Math.round((fills && Theme.textSize <= 1.15 ? 1.1 : 0.5) * Theme.gap)
     // How far they reach above their place.
-    readonly property real over: Math.max(0, -go.y) + head
-    // What the line above them takes.
-    readonly property real head: above !== "" ? told.height + (Theme.textSize <= (fills ? 1.15 : 1) ? 1 : 0.5) * Theme.gap : 0
+    readonly property real over: Math.max(0, -go.y)
     // As high without a way on, so that the way back stands at the same place.
     readonly property real tallest: level ? Math.round(go.implicitHeight) : !goes && !returns ? 0 : Math.max(goes ? go.height : Math.round(go.implicitHeight), returns ? back.height : 0)
 
@@ -107,24 +103,6 @@ FocusScope {
         return Math.max(padding, (each - 1.02 * Math.min(...longer)) / 2 - 2)
     }
 
-    PlainText {
-        id: told
-        objectName: "ways-line"
-        visible: text !== ""
-        y: (ways.level ? go.y : 0) - ways.head
-        width: ways.width
-        height: Math.ceil(1.37 * font.pixelSize)
-        text: ways.above
-        onTextChanged: if (visible) Accessible.announce(told.text, Accessible.Polite)
-        font { pixelSize: ((ways.fills ? 16 : 14) + 20 * Theme.textSize) * Theme.unit; bold: true }
-        fontSizeMode: Text.HorizontalFit
-        minimumPixelSize: 24 * Theme.unit
-        // As other headings of a page.
-        horizontalAlignment: Text.AlignLeft
-        verticalAlignment: Text.AlignVCenter
-        // Those who cannot see it are told it with the way on.
-        Accessible.ignored: true
-    }
     BigButton {
         id: go
         letters: ways.letters

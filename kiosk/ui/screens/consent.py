@@ -112,21 +112,13 @@ class ConsentScreen(QObject):
         """Return the purposes whose ticks are missed."""
         return list(self._missing)
 
-    @Property(bool, notify=marked)
-    def complete(self) -> bool:
-        """Whether every required purpose is ticked."""
-        return self._page is not None and not self.needed
-
-    @Property(str, notify=marked)
-    def asked(self) -> str:
-        """Return what is to be ticked to take part; empty if nothing has to be."""
-        required = frozenset() if self._page is None else self._page.required
-        return self._catalogue.text("consent-waits", number=len(required)) if required else ""
-
     @Property(str, notify=marked)
     def toGo(self) -> str:  # noqa: N802 - QML's convention
-        """Return how many of these are still to be ticked; empty if none is."""
-        return self._catalogue.text("consent-to-go", number=len(self.needed)) if self.needed else ""
+        """Return what is still to be ticked to take part; empty if nothing is."""
+        if self._page is None or not self.needed:
+            return ""
+        message = "consent-to-go" if self._page.required & self._ticks else "consent-waits"
+        return self._catalogue.text(message, number=len(self.needed))
 
     @Slot(str, bool)
     def tick(self, purpose: str, ticked: bool) -> None:  # noqa: FBT001 - QML gives no names

@@ -17,7 +17,6 @@ FIXED = (
     "consent-agreed",
     "consent-missing",
     "consent-ready",
-    "consent-choose",
     "consent-agree",
     "consent-decline",
     "consent-more",

@@ -36,22 +36,20 @@ consent-required = nötig
 consent-optional = wie du möchtest
 consent-agreed = einverstanden
 consent-missing = Bitte kreuze das an, wenn du teilnehmen möchtest.
-# Above the boxes that are needed.
+# Above the boxes that are needed, as long as none of them has a tick.
 consent-waits =
     { $number ->
-        [one] Kreuze das nötige Kästchen an, um teilzunehmen
-       *[other] Kreuze die { $number } nötigen Kästchen an, um teilzunehmen
+        [one] Kreuze zur Teilnahme das nötige Kästchen an
+       *[other] Kreuze zur Teilnahme die { $number } nötigen Kästchen an
     }
-# In its place, once all of them have a tick.
-consent-ready = Mehr ist nicht nötig.
-# Above both answers, as long as boxes that are needed have no tick.
+# In its place, as long as only some of them have one.
 consent-to-go =
     { $number ->
-        [one] Zur Teilnahme noch ein Kästchen
-       *[other] Zur Teilnahme noch { $number } Kästchen
+        [one] Kreuze zur Teilnahme noch ein Kästchen an
+       *[other] Kreuze zur Teilnahme noch { $number } Kästchen an
     }
 # In its place, once all of them have one. It must favour neither answer.
-consent-choose = Wähle jetzt unten.
+consent-ready = Mehr ist nicht nötig. Wähle jetzt unten.
 consent-agree = Ich nehme teil
 consent-decline = Spielen ohne Teilnahme
 consent-more = Alles lesen
