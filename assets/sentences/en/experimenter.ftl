@@ -39,7 +39,7 @@ console-session-stays = Stays paused after closing
 ## The first page
 
 console-today = Today
-console-next-page = Next session and more
+console-next-page = Settings and deviations
 console-today-visitors = Visitors today
 console-today-early = { $early } ended early
 console-today-completed = Completed today

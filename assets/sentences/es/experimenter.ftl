@@ -39,7 +39,7 @@ console-session-stays = En pausa también después
 ## The first page
 
 console-today = Hoy
-console-next-page = Próxima sesión y más
+console-next-page = Ajustes y desviaciones
 console-today-visitors = Visitantes hoy
 console-today-early = { $early } a medias
 console-today-completed = Completadas hoy

@@ -39,7 +39,7 @@ console-session-stays = In pausa anche dopo
 ## The first page
 
 console-today = Oggi
-console-next-page = Prossima seduta e altro
+console-next-page = Impostazioni e deviazioni
 console-today-visitors = Visitatori oggi
 console-today-early = { $early } finite prima
 console-today-completed = Completate oggi

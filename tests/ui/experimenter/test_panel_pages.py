@@ -265,6 +265,38 @@ def calm_day(language: str) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("language", sorted(CATALOGUES))
+@pytest.mark.parametrize("text_size", [1.0, 1.3])
+@pytest.mark.parametrize("size", [*LAYOUTS, (800, 1280)])
+def test_names_of_pages_are_large_and_clear_of_the_clock(
+    window: Window, language: str, text_size: float, size: tuple[int, int]
+) -> None:
+    show(window, language, size, text_size)
+    root = window.shown.contentItem()
+    tabs = [find_item(root, name) for name in ("panel-today", "panel-next")]
+    clock, title = find_item(root, "today-clock"), CATALOGUES[language].text("console-title")
+    assert clock is not None
+    for tab in tabs:
+        assert tab is not None
+        assert tab.mapToScene(QPointF(tab.width(), 0)).x() < clock.mapToScene(QPointF()).x()
+        if size[0] > size[1] and text_size == 1:
+            assert tab.property("font").pixelSize() == pytest.approx(34 * size[0] / 1920, abs=1)
+            assert [text for text in texts(root) if words_of(text) == title and text.isVisible()]
+
+
+def test_a_single_row_is_not_spread_over_a_broad_card(window: Window) -> None:
+    widths = []
+    for many in (1, 3):
+        calm, busy = calm_day("en"), busy_day("en")
+        sessions = busy["records"]["sessions"][:1] * many
+        show(window, "en", WIDE, **calm | {"records": calm["records"] | {"sessions": sessions}})
+        (table,) = of_kind(window.shown.contentItem(), "PanelSessions")
+        cells = [item for item in of_kind(table, "PanelCell") if item.isVisible()]
+        widths.append(max(cell.mapToItem(table, QPointF()).x() + cell.property("implicitWidth") for cell in cells))
+        assert widths[0] <= table.property("inset") + 1000 + ROUNDED
+    assert widths[1] > widths[0] + 100
+
+
+@pytest.mark.parametrize("language", sorted(CATALOGUES))
 @pytest.mark.parametrize("size", LAYOUTS)
 def test_letters_are_large_where_the_page_has_the_room(window: Window, language: str, size: tuple[int, int]) -> None:
     show(window, language, size, **calm_day(language))

@@ -8,7 +8,7 @@ PanelButton {
 
     width: implicitWidth
     choosable: true
-    font { pixelSize: 1.1 * Theme.dense; bold: true }
+    font.bold: true
     // Its words are level with those of the buttons beside it, which stand higher than the line below it.
     bottomPadding: topPadding + 0.3 * Theme.gap
     least: 68 * Theme.unit + 0.3 * Theme.gap

@@ -20,7 +20,10 @@ PanelSection {
 
     readonly property var titles: shown.heads.map(head => ({ words: head, strong: false }))
     readonly property real step: 0.8 * size
-    readonly property real room: width - 2 * inset
+    readonly property real whole: width - 2 * inset
+    // A single row is hard to follow over a broad card, unless its words need that.
+    readonly property bool single: rows.length === 1 && (!alike || like.rows.length === 1)
+    readonly property real room: single ? Math.min(whole, Math.max(1000 * Theme.unit, sum(shared[0]) + (heads.length - 1) * step)) : whole
     readonly property real free: room - (heads.length - 1) * step
     // What each column needs where its cells have one line, two or three, and for its longest word.
     readonly property var own: [1, 2, 3, 99].map(most => needs(most, size))
@@ -177,7 +180,7 @@ PanelSection {
             }
         }
         Rectangle {
-            width: table.room
+            width: table.whole
             height: 2 * Theme.unit
             color: Theme.edge
         }

@@ -41,14 +41,27 @@ FocusScope {
         anchors { top: parent.top; left: parent.left; right: parent.right; margins: view.edge; topMargin: view.space }
         height: Math.max(pages.height, close.height + 0.3 * Theme.gap)
         // Where large words leave too little room, as on an upright screen, the title is what can be spared.
-        readonly property bool tight: title.implicitWidth + pages.width + clock.width + close.width + 4 * Theme.gap > width
+        readonly property bool tight: !fits(usual, true)
+        // How large the names of the pages are: as large as has room beside the clock.
+        readonly property real usual: 1.1 * Theme.dense
+        readonly property real tabSize: [34, 33, 32, 31, 30, 29, 28, 27, 26].map(each => each * Theme.unit)
+            .find(each => each > usual && fits(each, !tight)) ?? usual
+
+        // Whether they have room in this size, with the title before them or without it.
+        function fits(size: real, titled: bool): bool {
+            const names = [view.words["console-today"], view.words["console-next-page"]]
+            return (titled ? wordWidths.bold(view.words["console-title"], Math.max(size, 1.35 * Theme.dense)) + 2 * Theme.gap : 0)
+                + names.reduce((sum, name) => sum + wordWidths.bold(name, size) + 32 * Theme.unit, Theme.gap)
+                + clock.width + close.width + 2 * Theme.gap <= width
+        }
+        WordWidths { id: wordWidths }
 
         PlainText {
             id: title
             visible: !head.tight
             y: (close.height - height) / 2
             text: view.words["console-title"]
-            font { pixelSize: Theme.dense * 1.35; bold: true }
+            font { pixelSize: Math.max(head.tabSize, 1.35 * Theme.dense); bold: true }
             color: Theme.ink
         }
         Row {
@@ -59,6 +72,7 @@ FocusScope {
             PanelTab {
                 objectName: "panel-today"
                 words: view.words["console-today"]
+                font.pixelSize: head.tabSize
                 chosen: view.onToday
                 onClicked: view.onToday = true
             }
@@ -66,6 +80,7 @@ FocusScope {
                 id: second
                 objectName: "panel-next"
                 words: view.words["console-next-page"]
+                font.pixelSize: head.tabSize
                 chosen: !view.onToday
                 onClicked: view.onToday = false
             }
