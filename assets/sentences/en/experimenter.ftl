@@ -67,8 +67,8 @@ console-test-the-voice = Test the voice
 console-test-sentence = Good morning. If you hear this sentence, the voice works.
 console-supervisor = Supervisor
 console-supervisor-there = running
-console-supervisor-none = none; if the kiosk fails, it stays off
-console-supervisor-remedy = Use “recollect run --supervise”
+console-supervisor-none = none
+console-supervisor-remedy = Use one: recollect run --supervise
 console-remote = From afar
 console-remote-there = the status is published
 console-remote-not = no connection: { $why }
@@ -117,8 +117,8 @@ console-policy = Policy
 console-study = Study
 console-pin-line-name = PIN
 console-pin-set = is asked for
-console-pin-none = none; sessions are trials, and this panel is unlocked
-console-pin-remedy = Use “recollect study set-pin”
+console-pin-none = none
+console-pin-remedy = Set one: recollect study set-pin
 console-screen = Screen
 
 ## Counts

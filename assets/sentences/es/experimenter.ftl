@@ -67,8 +67,8 @@ console-test-the-voice = Probar la voz
 console-test-sentence = Buenos días. Si oyes esta frase, la voz funciona.
 console-supervisor = Supervisor
 console-supervisor-there = activo
-console-supervisor-none = ninguno; si el quiosco falla, queda apagado
-console-supervisor-remedy = Usa “recollect run --supervise”
+console-supervisor-none = no hay
+console-supervisor-remedy = Usa uno: recollect run --supervise
 console-remote = A distancia
 console-remote-there = el estado se publica
 console-remote-not = sin conexión: { $why }
@@ -117,8 +117,8 @@ console-policy = Política
 console-study = Estudio
 console-pin-line-name = PIN
 console-pin-set = se pide
-console-pin-none = no hay; las sesiones son pruebas y el panel no está protegido
-console-pin-remedy = Usa “recollect study set-pin”
+console-pin-none = no hay
+console-pin-remedy = Crea uno: recollect study set-pin
 console-screen = Pantalla
 
 ## Counts

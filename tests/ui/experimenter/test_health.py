@@ -96,12 +96,8 @@ def test_every_deviation_has_a_line_in_every_language(language: str) -> None:
             "Clock",
             "was set by -300 s since the start",
         ),
-        (
-            replace(WELL, has_pin=False),
-            "PIN",
-            "none; sessions are trials, and this panel is unlocked",
-        ),
-        (replace(WELL, supervised=False), "Supervisor", "none; if the kiosk fails, it stays off"),
+        (replace(WELL, has_pin=False), "PIN", "none"),
+        (replace(WELL, supervised=False), "Supervisor", "none"),
         (replace(WELL, screen="the desktop gets some keys", screen_well=False), "Screen", "the desktop gets some keys"),
     ],
 )
@@ -122,8 +118,8 @@ def test_the_last_copy_is_told_in_the_size_that_matters(minutes: int, words: str
 @pytest.mark.parametrize(
     ("state", "name", "remedy"),
     [
-        (replace(WELL, has_pin=False), "PIN", "Use “recollect study set-pin”"),
-        (replace(WELL, supervised=False), "Supervisor", "Use “recollect run --supervise”"),
+        (replace(WELL, has_pin=False), "PIN", "Set one: recollect study set-pin"),
+        (replace(WELL, supervised=False), "Supervisor", "Use one: recollect run --supervise"),
         (replace(WELL, muted=True), "Voice", "Turn the sound on"),
     ],
 )

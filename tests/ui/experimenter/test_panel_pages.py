@@ -360,7 +360,76 @@ def test_a_session_with_three_matters_needs_no_scrolling(
     (today,) = of_kind(window.shown.contentItem(), "PanelToday")
     assert today.height() <= today.property("seen")
     (button,) = [item for item in items(today) if item.objectName() == "action-backup"]
-    assert lies_in(button, "PanelNotice")
+    assert lies_in(button, "PanelNotice" if size[0] > size[1] else "PanelActions")
+
+
+def level(item: QQuickItem) -> float:
+    """Return how far below the top of the window it begins."""
+    return item.mapToScene(QPointF()).y()
+
+
+@pytest.mark.parametrize("language", sorted(CATALOGUES))
+@pytest.mark.parametrize("size", LAYOUTS)
+def test_each_matter_has_one_line_and_all_lines_stand_equally_far_apart(
+    window: Window, language: str, size: tuple[int, int]
+) -> None:
+    told, health = CATALOGUES[language].text, busy_day(language)["health"]
+    copy = HealthLine(told("console-database"), told("console-backup-none"), remedy=told("console-backup"))
+    matters = [*health["matters"], asdict(copy) | {"action": "backup"}]
+    show(window, language, size, **calm_day(language) | {"health": health | {"matters": matters}})
+    (notice,) = of_kind(window.shown.contentItem(), "PanelNotice")
+    assert notice.property("beside")
+    said = {f"{matter['name']}: {matter['message']}" for matter in matters}
+    lines = [text for text in texts(notice) if words_of(text) in said]
+    assert [text.property("lineCount") for text in lines] == [1, 1, 1]
+    middles = sorted(level(text) + text.height() / 2 for text in lines)
+    steps = [after - before for before, after in pairwise(middles)]
+    assert steps[0] == pytest.approx(steps[1], abs=ROUNDED)
+
+
+@pytest.mark.parametrize("size", LAYOUTS)
+def test_checks_counts_and_sessions_are_parts_of_one_sheet(window: Window, size: tuple[int, int]) -> None:
+    show(window, "en", size)
+    sheet = find_item(window.shown.contentItem(), "today-sheet")
+    assert sheet is not None
+    around = sheet.mapRectToScene(sheet.boundingRect())
+    for name in ("Health", "Counts", "Sessions"):
+        (part,) = of_kind(window.shown.contentItem(), f"Panel{name}")
+        assert not part.property("framed")
+        assert around.adjusted(-1, -1, 1, 1).contains(part.mapRectToScene(part.boundingRect()))
+
+
+@pytest.mark.parametrize("language", sorted(CATALOGUES))
+@pytest.mark.parametrize("under_way", [True, False])
+@pytest.mark.parametrize("matters", [0, 2])
+def test_no_action_of_an_upright_page_has_a_row_alone(
+    window: Window, language: str, matters: int, *, under_way: bool
+) -> None:
+    busy = busy_day(language)
+    health = busy["health"] | {"matters": busy["health"]["matters"][:matters]}
+    show(window, language, UPRIGHT, health=health, choices=busy["choices"] | {"underWay": under_way})
+    (actions,) = of_kind(window.shown.contentItem(), "PanelActions")
+    names = ("pause", "again", "backup", "mute", "end") if under_way else ("backup", "mute")
+    shown = [item for item in items(actions) if item.isVisible()]
+    found = [item for item in shown if item.objectName() in {"test-voice", *(f"action-{name}" for name in names)}]
+    assert len(found) == (5 if under_way else 3)
+    assert {item.width() for item in found} == {actions.property("half")}
+    # The break fills the sixth place.
+    assert len({(round(level(item)), round(item.mapToScene(QPointF()).x())) for item in found}) == len(found)
+    assert len({round(level(item)) for item in found}) == (3 if under_way else 2)
+
+
+def test_the_notice_of_an_upright_page_stands_below_the_actions_unless_an_alarm_holds(window: Window) -> None:
+    panel = window.screens.experimenter.parts[2]
+    for size, holds in ((UPRIGHT, False), (UPRIGHT, True), (UPRIGHT, False), (WIDE, False)):
+        panel.show_alarms([{"when": "09:40", "words": "The voice fails", "holds": holds}])
+        show(window, "en", size)
+        (notice,), (actions,) = (of_kind(window.shown.contentItem(), f"Panel{name}") for name in ("Notice", "Actions"))
+        if size == WIDE:
+            assert notice.mapToScene(QPointF()).x() < actions.mapToScene(QPointF()).x()
+        else:
+            assert (level(notice) < level(actions)) is holds
+    panel.show_alarms([])
 
 
 def second_page(language: str, *, robot: bool, deviations: int) -> dict[str, Any]:

@@ -18,7 +18,7 @@ PanelSection {
     // Whole pixels, so that all rows end in line. Side by side, two stand so far apart that neither is touched for the other.
     readonly property real space: Math.round(apart)
     readonly property real across: Math.floor(width - 2 * inset)
-    readonly property real gutter: underWay ? Math.round(40 * Theme.unit) : space
+    readonly property real gutter: wide ? space : Math.round(40 * Theme.unit)
     readonly property real half: Math.floor((across - gutter) / 2)
     readonly property real edge: (wide ? 24 : 20) * Theme.unit
     readonly property bool normal: Theme.textSize <= 1.15
@@ -30,9 +30,11 @@ PanelSection {
     readonly property int others: (underWay ? 5 : 3) - answered.length + (breaks.visible ? breaks.rows : 0)
     readonly property real fixed: frame + (mains + others - 1) * space + lower.words
     // Whether an upright page has much to tell.
-    readonly property bool full: panel.health.matters.length > 2 || panel.records.sessions.length > 3
+    readonly property bool full: panel.health.matters.length > 3 || panel.records.sessions.length > 3
     // The rows of an upright page without a main action, and how high they are without the spread.
-    readonly property int lines: (pairs.fits ? Math.ceil(pairs.many / 2) : pairs.many) + (breaks.visible ? 1 : 0) + (lower.halves ? 0 : 1)
+    readonly property int lines: (pairs.fits ? Math.ceil(pairs.many / 2) : pairs.many) + (breaks.visible ? 1 : 0) + (underWay && !lower.halves ? 1 : 0)
+    // Between sessions an upright page has three of them: the copy stands beside the break then, so that no row has one alone.
+    readonly property bool beside: !wide && normal && !underWay && breaks.visible && pairs.fits
     readonly property real bare: frame + lines * lowest + (lines - 1) * space + lower.topPadding + (breaks.visible ? breaks.heading + breaks.spacing : 0) + (underWay && !lower.halves ? end.above : 0)
     readonly property real lowest: (wide ? (mains > 0 ? 76 : 80) : full ? 76 : 90) * Theme.unit
     readonly property real share: wide && least > 0 && normal ? (least - fixed) / (others + 1.25 * mains) : 0
@@ -63,7 +65,7 @@ PanelSection {
     }
     // Give the keyboard to the button of an action.
     function take(action: string) {
-        const found = [backup, mute, wideBackup, wideMute].find(each => each.visible && each.objectName === "action-" + action)
+        const found = [backup, mute, lastBackup].find(each => each.visible && each.objectName === "action-" + action)
         found?.forceActiveFocus(Qt.OtherFocusReason)
     }
 
@@ -119,28 +121,27 @@ PanelSection {
         drawing: "M4 12 H20 M13.5 5.5 L20 12 L13.5 18.5"
         onClicked: actions.panel.wish("next", "")
     }
-    // While a visitor is there, the voice is theirs.
-    Action {
-        objectName: "test-voice"
-        width: actions.across
-        visible: !actions.underWay
-        enabled: !actions.choices.muted
-        words: actions.words["console-test-the-voice"]
-        drawing: "M3.5 4.5 H20.5 V16 H11.5 L7 20.5 V16 H3.5 Z"
-        onClicked: actions.panel.wish("test_voice", "")
-    }
     // Upright in two columns, unless the words of one need more. Why a copy has to wait may take two lines.
     Grid {
         id: pairs
-        readonly property var those: [...(actions.underWay ? [pause, again] : []), ...(actions.has("backup") ? [backup] : []), ...(actions.has("mute") ? [mute] : [])]
-        readonly property int many: those.length
+        readonly property var those: [...(actions.underWay ? [pause, again] : [test]), ...(actions.has("backup") ? [backup] : []), ...(actions.has("mute") ? [mute] : [])]
+        readonly property int many: those.length - (actions.beside ? 1 : 0)
         readonly property bool fits: those.every(each => !each.enabled || each.implicitWidth <= actions.half)
-        // The last of an odd number has both columns.
-        readonly property string last: columns === 2 && many % 2 === 1 ? (actions.has("mute") ? "mute" : "backup") : ""
         readonly property real each: columns === 1 ? actions.across : actions.half
         columns: !actions.wide && fits ? 2 : 1
         columnSpacing: actions.gutter
         rowSpacing: actions.space
+        // While a visitor is there, the voice is theirs.
+        Action {
+            id: test
+            objectName: "test-voice"
+            width: pairs.each
+            visible: !actions.underWay
+            enabled: !actions.choices.muted
+            words: actions.words["console-test-the-voice"]
+            drawing: "M3.5 4.5 H20.5 V16 H11.5 L7 20.5 V16 H3.5 Z"
+            onClicked: actions.panel.wish("test_voice", "")
+        }
         PanelSwitch {
             id: pause
             objectName: "action-pause"
@@ -168,29 +169,19 @@ PanelSection {
         }
         Backup {
             id: backup
-            visible: actions.has("backup") && pairs.last !== "backup"
+            visible: actions.has("backup") && !actions.beside
             width: pairs.each
         }
         Mute {
             id: mute
-            visible: actions.has("mute") && pairs.last !== "mute"
+            visible: actions.has("mute")
             width: pairs.each
         }
-    }
-    Mute {
-        id: wideMute
-        visible: pairs.last === "mute"
-        width: actions.across
-    }
-    Backup {
-        id: wideBackup
-        visible: pairs.last === "backup"
-        width: actions.across
     }
     // Apart, at the foot or beside the break: it takes a game from a visitor.
     Grid {
         id: lower
-        readonly property bool halves: !actions.wide && actions.normal && actions.underWay && breaks.visible
+        readonly property bool halves: !actions.wide && actions.normal && breaks.visible && (actions.underWay || actions.beside)
         readonly property real each: halves ? actions.half : actions.across
         // How much of its height are words, and the lines between.
         readonly property real words: topPadding + (breaks.visible ? breaks.heading + breaks.spacing : 0) + (actions.underWay ? end.above : 0)
@@ -209,12 +200,24 @@ PanelSection {
             between: actions.space
             least: actions.tall
             size: actions.label
-            crown: lower.halves ? then.implicitHeight : 0
+            crown: lower.halves && actions.underWay ? then.implicitHeight : 0
             lettering: actions.lettering
             title: actions.words["console-break"]
             options: actions.choices.breaks ?? []
             chosen: actions.choices.break ?? ""
             onPicked: value => actions.panel.wish("break", value)
+        }
+        Column {
+            spacing: breaks.spacing
+            visible: actions.beside
+            Item {
+                width: lower.each
+                height: breaks.heading
+            }
+            Backup {
+                id: lastBackup
+                width: lower.each
+            }
         }
         Column {
             id: end

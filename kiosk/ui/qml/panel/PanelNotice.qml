@@ -13,12 +13,14 @@ Rectangle {
     required property real usual
     readonly property var matters: panel.health.matters
     // The actions that answer one of them: their buttons stand here, and not among the others.
-    readonly property var answered: matters.map(matter => matter.action ?? "").filter(action => action !== "")
+    // On an upright page all actions stay where they are, just above or below, and the line only says what to do.
+    property bool answering: true
+    readonly property var answered: answering ? matters.map(matter => matter.action ?? "").filter(action => action !== "") : []
     // How much of such a button is seen; a finger reaches it above and below that, so that the lines stay close.
-    readonly property real place: 56 * Theme.unit
-    readonly property real past: 6 * Theme.unit
-    // How high its line is at least.
-    readonly property real row: place + 8 * Theme.unit
+    readonly property real place: 42 * Theme.unit
+    readonly property real past: 13 * Theme.unit
+    // How high its line is at least: as high as the others, unless there are two, which a finger must tell apart.
+    readonly property real row: (answered.length > 1 ? 64 : 48) * Theme.unit
     // The bar at its edge has the colour that warns; the ground is pale, so that the actions are seen first.
     readonly property real bar: 14 * Theme.unit
 
@@ -37,6 +39,10 @@ Rectangle {
         mute: "M3 9.5 H7 L12.5 5 V19 L7 14.5 H3 Z M16 9 A4.5 4.5 0 0 1 16 15 M18.8 6.2 A8.5 8.5 0 0 1 18.8 17.8"
     })
 
+    // Whether its line has the button.
+    function does(matter: var): bool {
+        return answering && Boolean(matter?.action)
+    }
     function said(matter: var): string {
         return `${matter.name}: ${matter.message}`
     }
@@ -49,34 +55,34 @@ Rectangle {
     }
     // How wide the button is, or the words that say what to do.
     function answer(matter: var, size: real): real {
-        return long(matter.remedy, plain, size) + (matter.action ? 1.8 * size + 36 * Theme.unit : 0)
+        return long(matter.remedy, plain, size) + (does(matter) ? 1.8 * size + 36 * Theme.unit : 0)
     }
     function roomed(size: real): real {
         return width - 2 * inset - 1.4 * size
     }
     // How large all of it fits in two columns of single lines. Small letters are a little wider than large ones made smaller.
     function fitted(size: real): real {
-        const both = widest(bold, matters.map(matter => said(matter)), 100) + Math.max(0, ...matters.map(matter => long(matter.remedy, plain, 100) + (matter.action ? 320 : 0)))
+        const both = widest(bold, matters.map(matter => said(matter)), 100) + Math.max(0, ...matters.map(matter => long(matter.remedy, plain, 100) + (does(matter) ? 320 : 0)))
         return 99 * (roomed(size) - 1.5 * Theme.gap - 4 * Theme.unit) / both
     }
     function letters(size: real): real {
         const fits = fitted(size)
         return fits < Math.round(size) && fits >= smallest ? Math.floor(fits * Math.min(1, size / Math.round(size))) : size
     }
-    // Lines of a few matters stand apart; many stay close, and so do larger letters, so that the page does not scroll for them.
+    // All lines have one height.
     function pitch(written: real): real {
-        return Math.ceil((matters.length > 3 || written > usual ? 1.5 : 1.9) * written)
+        return Math.ceil(Math.max(48 * Theme.unit, 1.45 * written))
     }
     // How high it is if it is written so large.
     function deep(size: real): real {
         if (fitted(size) >= smallest)
-            return matters.reduce((sum, matter) => sum + Math.max(matter.action ? row : 0, pitch(letters(size))), 0) + 0.6 * Theme.gap
+            return matters.reduce((sum, matter) => sum + Math.max(does(matter) ? row : 0, pitch(letters(size))), 0) + 0.6 * Theme.gap
         const room = roomed(size), line = Math.ceil(plain.height * size / 100)
         const heights = matters.map(matter => {
             const said = long(notice.said(matter), bold, size), remedy = answer(matter, size)
             const first = line * Math.ceil(1.1 * said / room - 0.1)
-            const second = matter.action ? row : line * Math.ceil(1.1 * remedy / room - 0.1)
-            return matter.remedy === "" ? first : said + Theme.gap + remedy <= room ? Math.max(first, matter.action ? row : 0) : first + second
+            const second = does(matter) ? row : line * Math.ceil(1.1 * remedy / room - 0.1)
+            return matter.remedy === "" ? first : said + Theme.gap + remedy <= room ? Math.max(first, does(matter) ? row : 0) : first + second
         })
         return heights.reduce((sum, each) => sum + each, 0) + (matters.length - 1) * 5 * Theme.unit + 0.7 * Theme.gap
     }
@@ -92,7 +98,7 @@ Rectangle {
     component Matter: Row {
         id: line
         property var matter: null
-        readonly property string action: matter?.action ?? ""
+        readonly property string action: notice.does(matter) ? matter.action : ""
         property alias button: button
         visible: matter !== null
         width: sentence.width
@@ -187,7 +193,7 @@ Rectangle {
         anchors { left: parent.left; right: parent.right; margins: notice.inset; verticalCenter: parent.verticalCenter }
         spacing: notice.beside ? 0 : 5 * Theme.unit
         Repeater {
-            model: notice.matters.filter(matter => !matter.action)
+            model: notice.matters.filter(matter => !notice.does(matter))
             delegate: Matter {
                 required property var modelData
                 matter: modelData
@@ -196,11 +202,11 @@ Rectangle {
         // Not made anew with the others: the keyboard, or a finger that lies on one, would lose it.
         Matter {
             id: mute
-            matter: notice.matters.find(matter => matter.action === "mute") ?? null
+            matter: notice.matters.find(matter => notice.does(matter) && matter.action === "mute") ?? null
         }
         Matter {
             id: backup
-            matter: notice.matters.find(matter => matter.action === "backup") ?? null
+            matter: notice.matters.find(matter => notice.does(matter) && matter.action === "backup") ?? null
         }
     }
 }

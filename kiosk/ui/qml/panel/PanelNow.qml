@@ -10,6 +10,8 @@ Rectangle {
     required property PanelScreen panel
     // Where the second column of what stands below begins; the numbers begin there too, if they have room.
     required property real split
+    // Where the line between two parts stands there: that before the numbers is level with it then.
+    property real rule: 0
     readonly property var tiles: panel.today.tiles
     readonly property var stage: tiles.find(each => each.name === "stage")
     required property real size
@@ -97,7 +99,7 @@ Rectangle {
         line: now.stage?.line ?? ""
     }
     Rectangle {
-        x: now.wide ? now.inset + now.from - 0.7 * Theme.gap : now.inset
+        x: !now.wide ? now.inset : now.rule > 0 && now.from === now.split ? now.rule : now.inset + now.from - 0.7 * Theme.gap
         y: now.wide ? 0.8 * Theme.gap : state.y + state.height + 0.3 * Theme.gap
         width: now.wide ? 2 * Theme.unit : now.room
         height: now.wide ? now.height - 1.6 * Theme.gap : 2 * Theme.unit

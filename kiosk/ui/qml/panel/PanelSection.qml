@@ -14,6 +14,8 @@ Rectangle {
     property real crown: 0
     property real size: Theme.dense
     property real apart: 10 * Theme.unit
+    // Not where it is one of several parts of a sheet.
+    property bool framed: true
     readonly property real inset: Math.round(1.1 * Theme.gap)
     // How high it is at least, where it ends with another one beside it.
     property real least: 0
@@ -27,8 +29,8 @@ Rectangle {
     // Whole pixels, so that those side by side end in line.
     height: Math.ceil(Math.max(least, wish))
     radius: Theme.radius
-    color: Theme.white
-    border { color: Theme.edge; width: 2 * Theme.unit }
+    color: framed ? Theme.white : "transparent"
+    border { color: Theme.edge; width: framed ? 2 * Theme.unit : 0 }
 
     PlainText {
         id: heading
