@@ -175,7 +175,8 @@ def _voice(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
             action=Action.MUTE.value,
         )
     if state.voice.is_ok and state.pack_changed:
-        return HealthLine(name, catalogue.text("console-voice-changed"), is_ok=False)
+        remedy = catalogue.text("console-voice-changed-remedy")
+        return HealthLine(name, catalogue.text("console-voice-changed"), is_ok=False, remedy=remedy)
     return HealthLine(name, state.voice.message, state.voice.is_ok, is_used=state.voice.is_used)
 
 
@@ -196,7 +197,9 @@ def _disk(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
         SpaceLevel.WARN: "console-disk-warn",
         SpaceLevel.REFUSE: "console-disk-refuse",
     }[state.free_space.level]
-    return HealthLine(name, catalogue.text(message, free=size), state.free_space.level is SpaceLevel.ENOUGH)
+    is_enough = state.free_space.level is SpaceLevel.ENOUGH
+    remedy = "" if is_enough else catalogue.text(f"{message}-remedy")
+    return HealthLine(name, catalogue.text(message, free=size), is_enough, remedy=remedy)
 
 
 def _database(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
@@ -233,7 +236,8 @@ def _clock(clocks: Clocks, catalogue: Catalogue) -> HealthLine:
     if clocks.set_back_ms > DRIFT_MS:
         # A clock that is wrong is wrong by hours; one that is off by less is so by at most one.
         hours = ceil(clocks.set_back_ms / MS_PER_HOUR)
-        return HealthLine(name, catalogue.text("console-clock-behind", hours=hours), is_ok=False)
+        remedy = catalogue.text("console-clock-behind-remedy")
+        return HealthLine(name, catalogue.text("console-clock-behind", hours=hours), is_ok=False, remedy=remedy)
     if abs(clocks.jump_ms) > DRIFT_MS:
         return HealthLine(
             name, catalogue.text("console-clock-jumped", seconds=round(clocks.jump_ms / MS_PER_SECOND)), is_ok=False

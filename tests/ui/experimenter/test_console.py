@@ -335,7 +335,7 @@ def test_the_notice_has_all_that_is_to_be_done_and_the_checks_only_what_is_well(
     (notice,) = of_kind(assigner.app.window.contentItem(), "PanelNotice")
     assert lies_in(assigner.item("action-backup"), "PanelNotice")
     assert [item.objectName() for item in items(notice) if item.objectName().startswith("action-")] == ["action-backup"]
-    assert shows(window, "Disk: only 100 MiB free: make room this evening")
+    assert shows(window, "Disk: only 100 MiB free")
     assert not shows(window, "Disk")
     assigner.press(Qt.Key.Key_Return)
     assigner.wait_until(lambda: matters(assigner) == ["Disk"])

@@ -363,6 +363,19 @@ def test_a_session_with_three_matters_needs_no_scrolling(
     assert lies_in(button, "PanelNotice" if size[0] > size[1] else "PanelActions")
 
 
+@pytest.mark.parametrize("language", sorted(CATALOGUES))
+@pytest.mark.parametrize("matters", [0, 1, 2])
+def test_an_upright_page_with_the_next_visitor_to_call_needs_no_scrolling(
+    window: Window, language: str, matters: int
+) -> None:
+    busy = busy_day(language)
+    health = busy["health"] | {"matters": busy["health"]["matters"][:matters]}
+    choices = busy["choices"] | {"underWay": False, "session": "", "canBeNext": True}
+    show(window, language, UPRIGHT, health=health, choices=choices)
+    (today,) = of_kind(window.shown.contentItem(), "PanelToday")
+    assert today.height() <= today.property("seen")
+
+
 def level(item: QQuickItem) -> float:
     """Return how far below the top of the window it begins."""
     return item.mapToScene(QPointF()).y()

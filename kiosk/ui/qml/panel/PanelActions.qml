@@ -31,11 +31,11 @@ PanelSection {
     readonly property real fixed: frame + (mains + others - 1) * space + lower.words
     // Whether an upright page has much to tell.
     readonly property bool full: panel.health.matters.length > 3 || panel.records.sessions.length > 3
-    // The rows of an upright page without a main action, and how high they are without the spread.
+    // The rows of an upright page beside the main ones, and how high they are without the spread.
     readonly property int lines: (pairs.fits ? Math.ceil(pairs.many / 2) : pairs.many) + (breaks.visible ? 1 : 0) + (underWay && !lower.halves ? 1 : 0)
     // Between sessions an upright page has three of them: the copy stands beside the break then, so that no row has one alone.
     readonly property bool beside: !wide && normal && !underWay && breaks.visible && pairs.fits
-    readonly property real bare: frame + lines * lowest + (lines - 1) * space + lower.topPadding + (breaks.visible ? breaks.heading + breaks.spacing : 0) + (underWay && !lower.halves ? end.above : 0)
+    readonly property real bare: frame + (lines + 1.1 * mains) * lowest + (lines + mains - 1) * space + lower.topPadding + (breaks.visible ? breaks.heading + breaks.spacing : 0) + (underWay && !lower.halves ? end.above : 0)
     readonly property real lowest: (wide ? (mains > 0 ? 76 : 80) : full ? 76 : 90) * Theme.unit
     readonly property real share: wide && least > 0 && normal ? (least - fixed) / (others + 1.25 * mains) : 0
     readonly property real tall: Math.floor(Math.max(lowest + spread, Math.min(128 * Theme.unit, share)))
@@ -51,8 +51,8 @@ PanelSection {
         const lines = text => Math.ceil(1.1 * letters.advanceWidth(text) * size / 100 / lower.each - 0.1)
         const asked = breaks.visible ? tall * lines(breaks.title) + breaks.spacing : 0
         const parted = underWay && !lower.halves ? line.height + tall * lines(then.text) + 2 * end.spacing : 0
-        const rows = wide ? others + 1.25 * mains : actions.lines
-        return Math.ceil(1.12 * tall) + edges + rows * lowest + ((wide ? others + mains : rows) - 1) * space + lower.topPadding + asked + parted
+        const rows = wide ? others + 1.25 * mains : actions.lines + 1.1 * mains
+        return Math.ceil(1.12 * tall) + edges + rows * lowest + ((wide ? others : actions.lines) + mains - 1) * space + lower.topPadding + asked + parted
     }
     FontMetrics {
         id: letters

@@ -49,10 +49,10 @@ Item {
     // The lines of the checks where they stand in two columns.
     readonly property int pairs: Math.ceil(health.lines.length / 2)
     // On an upright one it is shared among the rows of all cards, as long as there is little to tell.
-    readonly property bool calm: !wide && tabled && panel.health.matters.length < 4 && panel.alarms.length === 0 && panel.records.resumable.length === 0 && !panel.choices.canBeNext && !(panel.choices.onBreak ?? false)
+    readonly property bool calm: !wide && tabled && panel.health.matters.length < 4 && panel.alarms.length === 0 && panel.records.resumable.length === 0
     readonly property real bare: now.height + (notice.visible ? notice.height + space : 0) + 2 * space + 2 * seam + actions.bare + health.frame + health.packed + pairs * 10 * Theme.unit
         + counts.frame + counts.packed + counts.last + sessions.frame + sessions.packed + (rows + 2) * 10 * Theme.unit + 4 * Theme.unit
-    readonly property real spread: calm ? Math.floor(Math.max(-8 * Theme.unit, Math.min(24 * Theme.unit, (seen - bare) / (rows + 1 + actions.lines + pairs)))) : 0
+    readonly property real spread: calm ? Math.floor(Math.max(-8 * Theme.unit, Math.min(24 * Theme.unit, (seen - bare) / (rows + 1 + actions.lines + 1.1 * actions.mains + pairs)))) : 0
 
     readonly property bool tabled: Theme.textSize <= 1.15
     // On an upright screen all second columns begin in line.
