@@ -5,9 +5,9 @@ Both pages have large letters, and need no scrolling during a session.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import Any
 
 import pytest
@@ -35,6 +35,16 @@ ROUNDED = 3
 NEAR = 12
 """In pixels: letters of two sizes on one line."""
 LAYOUTS = [WIDE, UPRIGHT, (1280, 800), (1366, 768)]
+
+
+def in_turn(*lists: Sequence[object]) -> list[tuple[object, ...]]:
+    """Combine these values; each combination is in one language, and the languages take turns."""
+    languages = sorted(CATALOGUES)
+    places = product(*(range(len(values)) for values in lists))
+    return [
+        (*(values[place] for values, place in zip(lists, each, strict=True)), languages[sum(each) % len(languages)])
+        for each in places
+    ]
 
 
 @pytest.fixture(scope="module")
@@ -264,9 +274,7 @@ def calm_day(language: str) -> dict[str, Any]:
     }
 
 
-@pytest.mark.parametrize("language", sorted(CATALOGUES))
-@pytest.mark.parametrize("text_size", [1.0, 1.3])
-@pytest.mark.parametrize("size", [*LAYOUTS, (800, 1280)])
+@pytest.mark.parametrize(("text_size", "size", "language"), in_turn([1.0, 1.3], [*LAYOUTS, (800, 1280)]))
 def test_names_of_pages_are_large_and_clear_of_the_clock(
     window: Window, language: str, text_size: float, size: tuple[int, int]
 ) -> None:
@@ -309,9 +317,7 @@ def test_letters_are_large_where_the_page_has_the_room(window: Window, language:
     assert today.height() <= today.property("seen")
 
 
-@pytest.mark.parametrize("language", sorted(CATALOGUES))
-@pytest.mark.parametrize("size", LAYOUTS)
-@pytest.mark.parametrize("many", [1, 2, 3, 4, 6])
+@pytest.mark.parametrize(("many", "size", "language"), in_turn([1, 2, 3, 4, 6], LAYOUTS))
 def test_larger_letters_never_make_the_page_scroll(
     window: Window, language: str, size: tuple[int, int], many: int
 ) -> None:
@@ -324,9 +330,7 @@ def test_larger_letters_never_make_the_page_scroll(
             assert today.height() <= today.property("seen")
 
 
-@pytest.mark.parametrize("language", sorted(CATALOGUES))
-@pytest.mark.parametrize("text_size", [1.0, 1.15])
-@pytest.mark.parametrize("size", LAYOUTS)
+@pytest.mark.parametrize(("text_size", "size", "language"), in_turn([1.0, 1.15], LAYOUTS))
 def test_warnings_in_two_columns_have_one_line_each(
     window: Window, language: str, text_size: float, size: tuple[int, int]
 ) -> None:
@@ -340,9 +344,7 @@ def test_warnings_in_two_columns_have_one_line_each(
             assert {text.property("lineCount") for text in told} == {1}
 
 
-@pytest.mark.parametrize("language", sorted(CATALOGUES))
-@pytest.mark.parametrize("size", [*LAYOUTS, (800, 1280)])
-@pytest.mark.parametrize("listed", [False, True])
+@pytest.mark.parametrize(("listed", "size", "language"), in_turn([False, True], [*LAYOUTS, (800, 1280)]))
 def test_a_session_with_three_matters_needs_no_scrolling(
     window: Window, language: str, size: tuple[int, int], *, listed: bool
 ) -> None:
@@ -481,9 +483,9 @@ def second_page(language: str, *, robot: bool, deviations: int) -> dict[str, Any
     }
 
 
-@pytest.mark.parametrize("language", sorted(CATALOGUES))
-@pytest.mark.parametrize("size", [*LAYOUTS, (800, 1280)])
-@pytest.mark.parametrize(("robot", "deviations"), [(False, 2), (True, 2), (True, 5)])
+@pytest.mark.parametrize(
+    ("deviations", "robot", "size", "language"), in_turn([2, 5], [False, True], [*LAYOUTS, (800, 1280)])
+)
 def test_the_second_page_has_large_letters_and_needs_no_scrolling(
     window: Window, language: str, size: tuple[int, int], *, robot: bool, deviations: int
 ) -> None:
