@@ -7,7 +7,7 @@ import tomllib
 import pytest
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QAccessible, QAccessibleInterface
-from PySide6.QtQuick import QQuickItem
+from PySide6.QtQuick import QQuickItem, QQuickWindow
 from pytestqt.qtbot import QtBot
 
 from kiosk.assistance.wording import Catalogue
@@ -144,18 +144,24 @@ def test_the_heading_alone_says_what_is_to_be_ticked_until_the_required_boxes_ar
     assert done == ["agreed"]
 
 
+def show_short(booth: Booth, qtbot: QtBot, language: str, size: tuple[int, int]) -> QQuickWindow:
+    """Show a short page in this language in a window of this size."""
+    booth.app.screens.set_language(WORDS.get(language, ENGLISH))
+    booth.app.screens.kiosk.begin((language,), language, Settings().consent)
+    booth.app.screens.consent.show(SHORT)
+    window = booth.app.window
+    window.resize(*size)
+    qtbot.waitUntil(lambda: window.contentItem().width() == size[0])
+    return window
+
+
 @pytest.mark.usefixtures("done")
 @pytest.mark.parametrize("language", ["en", "es", "it", "de", "ar"])
 @pytest.mark.parametrize("size", [(1920, 1080), (1080, 1920)], ids=["wide", "upright"])
 def test_the_heading_is_as_large_in_one_line_whatever_it_says(
     booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
 ) -> None:
-    window = booth.app.window
-    booth.app.screens.set_language(WORDS.get(language, ENGLISH))
-    booth.app.screens.kiosk.begin((language,), language, Settings().consent)
-    booth.app.screens.consent.show(SHORT)
-    window.resize(*size)
-    qtbot.waitUntil(lambda: window.contentItem().width() == size[0])
+    window = show_short(booth, qtbot, language, size)
     heights = set()
     for ticks in (frozenset[str](), REQUIRED - {"store"}, REQUIRED):
         booth.app.screens.consent.show_ticks(ticks)
@@ -173,13 +179,8 @@ def test_the_heading_is_as_large_in_one_line_whatever_it_says(
 def test_both_answers_have_room_around_their_words_and_are_clear_of_the_boxes(
     booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
 ) -> None:
-    window = booth.app.window
-    booth.app.screens.set_language(WORDS.get(language, ENGLISH))
-    booth.app.screens.kiosk.begin((language,), language, Settings().consent)
+    window = show_short(booth, qtbot, language, size)
     booth.app.screens.kiosk.offer_back(offered=True)
-    booth.app.screens.consent.show(SHORT)
-    window.resize(*size)
-    qtbot.waitUntil(lambda: window.contentItem().width() == size[0])
     lay_out(window)
     decline, agree = (booth.item(name) for name in ("decline", "agree"))
     both = place(decline).united(place(agree))

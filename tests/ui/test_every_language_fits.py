@@ -1110,6 +1110,17 @@ def test_words_over_everything_fit(opened: Window, study: StudyConfig, sizes: Se
         kiosk.clear()
 
 
+def show_practice(window: Window, study: StudyConfig, layout: Layout) -> None:
+    """Show the practice of a session that has a code, for a card to lie over."""
+    window.shown.resize(layout.width, layout.height)
+    QCoreApplication.processEvents()
+    assert window.shown.contentItem().width() == layout.width
+    window.screens.avatar.appear(present=not layout.robot)
+    window.screens.kiosk.begin(SHIPPED, "en", study.plans[0].settings.consent)
+    window.screens.kiosk.give_code("WMWMW-MWMWM")
+    window.screens.kiosk.show("practice")
+
+
 @pytest.mark.parametrize(
     "layout",
     [Layout(1920, 1080), Layout(1080, 1920), Layout(1366, 768, robot=True), Layout(720, 1280, robot=True)],
@@ -1120,13 +1131,7 @@ def test_a_card_over_everything_lies_in_the_window_with_all_that_stands_on_it(
 ) -> None:
     window, study = whole_window
     kiosk, shown = window.screens.kiosk, window.shown
-    shown.resize(layout.width, layout.height)
-    QCoreApplication.processEvents()
-    assert shown.contentItem().width() == layout.width
-    window.screens.avatar.appear(present=not layout.robot)
-    kiosk.begin(SHIPPED, "en", study.plans[0].settings.consent)
-    kiosk.give_code("WMWMW-MWMWM")
-    kiosk.show("practice")
+    show_practice(window, study, layout)
     covers: dict[str, tuple[Callable[[], None], Callable[[], None]]] = {
         "stop": (partial(kiosk.ask, "stop"), partial(kiosk.ask, "")),
         "still there": (
@@ -1164,13 +1169,8 @@ def test_the_frame_of_a_code_is_as_far_from_its_words_above_as_below(
 ) -> None:
     window, study = whole_window
     kiosk, shown = window.screens.kiosk, window.shown
-    shown.resize(layout.width, layout.height)
-    QCoreApplication.processEvents()
-    window.screens.avatar.appear(present=True)
     window.screens.set_language(study.plans[0].catalogue)
-    kiosk.begin(SHIPPED, "en", study.plans[0].settings.consent)
-    kiosk.give_code("WMWMW-MWMWM")
-    kiosk.show("practice")
+    show_practice(window, study, layout)
     kiosk.ask("stop")
     lay_out(shown)
     code = find_item(shown.contentItem(), "noted")
