@@ -19,7 +19,7 @@ from kiosk.ui.screens.debrief import QUIET_MODULES
 from kiosk.ui.simulated_visitor import lay_out
 from tests.samples import CATALOGUES, ENGLISH
 from tests.ui.conftest import Booth
-from tests.ui.looking import items, lies_in, painted
+from tests.ui.looking import is_text, items, lies_in, painted
 
 PAGE = Page(title="What we study", paragraphs=("There are two versions.",))
 MAIL, CODE = "study@university.test", "ROME2345-7KQ2M-XR4T4"
@@ -238,6 +238,12 @@ def test_pictures_beside_the_thanks_stand_in_two_full_rows_as_wide_as_the_page(
     assert max(bounds(card).right() for card in cards()) == pytest.approx(ways.right(), abs=12)
 
 
+def faces(booth: Booth, *, behind: bool) -> list[QQuickItem]:
+    """Return the cards that points are drawn with: those in front, or the slanted ones behind them."""
+    shown = [item for item in items(booth.app.window.contentItem()) if lies_in(item, "PointDrawing")]
+    return [item for item in shown if item.property("up") is not None and bool(item.rotation()) == behind]
+
+
 SIGNS = ("compare", "seen", "chance", "questions", "helper", "clock")
 
 
@@ -310,9 +316,13 @@ def test_on_an_upright_page_two_points_stand_on_cards_with_their_drawings_above_
     def place(text: str) -> QPointF:
         return written[text].mapToScene(QPointF(0, 0))
 
-    qtbot.waitUntil(lambda: place("Point 1").y() == place("Point 2").y() < place("Point 3.").y())
+    qtbot.waitUntil(lambda: place("Point 1").y() == place("Point 2").y() < place("Point 3").y())
     assert place("Point 0.").y() < place("Point 1").y()
-    assert place("Point 3.").y() < place("It is no test.").y()
+    # The two that follow stand beside each other as well, below the cards and as wide as those.
+    assert place("Point 3").y() == place("It is no test").y()
+    _, first, second, third, fourth = parts(booth, "PointCard")
+    assert (third.left(), fourth.left()) == (first.left(), second.left())
+    assert (third.width(), fourth.width()) == (first.width(), second.width())
     # The words stand below the drawing, both in the middle of their card.
     drawing, card = parts(booth, "PointDrawing")[0], parts(booth, "PointCard")[1]
     assert drawing.height() >= 240
@@ -331,8 +341,8 @@ def test_one_to_six_points_and_the_card_to_take_home_are_seen_without_scrolling(
     booth.app.screens.debrief.give_code(CODE)
     shown_at(booth, qtbot, "debrief", width, height)
     assert not booth.sees("more")
-    code, way = booth.item("qr"), booth.item("continue")
-    assert code.mapToScene(QPointF(0, code.height())).y() < way.mapToScene(QPointF(0, 0)).y()
+    code, way = bounds(booth.item("qr")), bounds(booth.item("continue"))
+    assert code.bottom() < way.top() or (code.right() < way.left() and code.bottom() <= way.bottom())
 
 
 @pytest.mark.parametrize(("width", "height"), [(1280, 800), (1366, 768), (1920, 1080), (1080, 1920)])
@@ -368,14 +378,19 @@ def test_the_shipped_debriefing_is_about_its_two_versions_drawn_with_cards_of_th
     written = texts(booth)
     for version in page.paragraphs[1:3]:
         heading = written[version.split("\n")[0]]
-        assert heading.property("font").pixelSize() >= (38 if width > height else 44)
+        assert heading.property("font").pixelSize() >= 40
         assert heading.property("lineCount") <= 2
-    seen, chance = kinds(booth, "CardFace")
-    assert (seen.property("up"), chance.property("up")) == (True, False)
+    seen, chance = faces(booth, behind=False)
+    behind, others = faces(booth, behind=True)[:2], faces(booth, behind=True)[2:]
+    # Among closed cards, one is picked by what was seen, and one by chance.
+    assert [face.property("up") for face in (*behind, seen)] == [False, False, True]
+    assert [face.property("up") for face in (*others, chance)] == [False, False, False]
     assert seen.property("picture") == booth.app.screens.result.property("pictures")[0]
-    assert seen.width() == chance.width()
-    assert seen.width() >= (240 if width < height else 170 if language == "en" else 140)
-    assert 220 <= booth.item("qr").width() <= 290
+    assert seen.width() == chance.width() >= 180
+    for face in (*behind, *others):
+        drawn_on = parts(booth, "PointCard")[1 if face in behind else 2]
+        assert drawn_on.contains(bounds(face))
+    assert 190 <= booth.item("qr").width() <= 250
     bubble = next(
         (item for text, item in written.items() if text and lies_in(item, "Bubble") and "Memo" not in text), None
     )
@@ -389,7 +404,7 @@ def test_the_debriefing_on_a_wide_screen_has_letters_of_three_sizes(booth: Booth
     shown_at(booth, qtbot, "debrief", 1920, 1080)
     shown = [item for item in items(booth.app.window.contentItem()) if lies_in(item, "DebriefPoints", "TakeHomeCard")]
     letters = [item for item in shown if item.inherits("QQuickText") and item.property("text")]
-    assert {item.property("font").pixelSize() for item in letters} == {36, 40, 64}
+    assert {item.property("font").pixelSize() for item in letters} == {34, 44, 56}
 
 
 @pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])
@@ -397,12 +412,51 @@ def test_the_white_around_the_qr_code_keeps_clear_of_the_edges_of_its_strip(
     booth: Booth, qtbot: QtBot, width: int, height: int
 ) -> None:
     booth.app.screens.debrief.show(Information.of(ASSETS / "consent" / "study", "en").debrief)
-    booth.app.screens.debrief.give_code("WWWWW-WWWWW")
+    # So much is said about this code that it has no room beside the way on.
+    booth.app.screens.debrief.give_contact("memory-study@psychology.university.test")
+    booth.app.screens.debrief.give_code("WWWWW-WWWWW", returns=True)
     shown_at(booth, qtbot, "debrief", width, height)
     (strip,) = parts(booth, "TakeHomeCard")
+    assert strip.bottom() < bounds(booth.item("continue")).top()
     white = bounds(booth.item("qr").childItems()[0])
     assert white.contains(bounds(booth.item("qr")))
     assert min(white.top() - strip.top(), strip.bottom() - white.bottom(), white.left() - strip.left()) >= 23.5
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 800), (1366, 768), (1920, 1080)])
+@pytest.mark.parametrize("language", ["en", "it", "es"])
+def test_on_a_wide_page_the_code_stands_beside_the_way_on_and_leaves_the_height_to_the_cards(
+    booth: Booth, qtbot: QtBot, language: str, width: int, height: int
+) -> None:
+    booth.app.screens.debrief.show(Information.of(ASSETS / "consent" / "study", language).debrief)
+    booth.app.screens.debrief.give_code("WWWWW-WWWWW")
+    shown_at(booth, qtbot, "debrief", width, height)
+    (strip,), way = parts(booth, "TakeHomeCard"), bounds(booth.item("continue"))
+    assert strip.bottom() == pytest.approx(way.bottom(), abs=1)
+    assert strip.left() == pytest.approx(bounds(booth.item("page-title")).left(), abs=1)
+    assert strip.right() < way.left()
+    told = [item for item in items(booth.app.window.contentItem()) if lies_in(item, "TakeHomeCard") and is_text(item)]
+    assert all(strip.contains(QRectF(painted(item)).adjusted(1, 1, -1, -1)) for item in told)
+    # The cards outweigh it.
+    assert parts(booth, "PointCard")[1].height() > 1.3 * strip.height()
+    # A telephone can tell squares of four dots apart, and the small ones of a small screen are no smaller than before.
+    squares = int(str(booth.app.screens.debrief.property("squares")))
+    assert booth.item("qr").width() >= squares * (4 if height >= 1080 or squares < 49 else 3)
+
+
+@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])
+def test_the_sign_on_a_card_leaves_the_upper_half_of_its_picture_free(
+    booth: Booth, qtbot: QtBot, width: int, height: int
+) -> None:
+    booth.app.screens.debrief.show(Information.of(ASSETS / "consent" / "study", "en").debrief)
+    booth.app.screens.debrief.give_code("WWWWW-WWWWW")
+    shown_at(booth, qtbot, "debrief", width, height)
+    signs = [sign for sign in kinds(booth, "Sign") if lies_in(sign, "PointDrawing")]
+    pictures = faces(booth, behind=False)
+    assert len(signs) == len(pictures) == 2
+    for sign, face in zip(signs, pictures, strict=True):
+        assert bounds(sign).top() > bounds(face).center().y()
+        assert bounds(sign).intersects(bounds(face))
 
 
 @pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])
@@ -417,6 +471,8 @@ def test_all_parts_of_the_debriefing_are_as_far_apart_as_each_other(
     (strip,) = parts(booth, "TakeHomeCard")
     title, way = bounds(booth.item("page-title")), bounds(booth.item("continue"))
     air = [lead.top() - title.bottom(), card.top() - lead.bottom(), lines[0].top() - card.bottom()]
-    air += [strip.top() - lines[-1].bottom(), way.top() - strip.bottom()]
-    assert air == pytest.approx([air[1]] * 5, abs=2)
+    air += [strip.top() - max(line.bottom() for line in lines)]
+    # On a wide page the strip and the way on are side by side.
+    air += [way.top() - strip.bottom()] if width < height else []
+    assert air == pytest.approx([air[1]] * len(air), abs=2)
     assert min(air) >= 24

@@ -38,11 +38,14 @@ PageFrame {
         upright: view.width < view.height
         column: view.column
         room: view.room
+        wayWidth: view.way.wish
+        wayHeight: view.way.height
     }
     PointPairs {
         id: pointPairs
         page: shape
-        taken: texts.taken + card.height
+        taken: texts.taken + (footed ? 0 : card.height)
+        room: pane.room
     }
     DebriefSizes {
         id: debriefSizes
@@ -52,9 +55,9 @@ PageFrame {
     ScrollPane {
         id: pane
         // Parts that are as far apart as each other are as far from the title as from the way on.
-        y: debriefSizes.paired ? Math.max(0, Math.min(2.5 * Theme.gap, (view.room - parts.height) / 2)) : view.sink(height)
+        y: debriefSizes.paired ? Math.max(0, Math.min(2.5 * Theme.gap, (room - parts.height) / 2)) : view.sink(height)
         width: parent?.width ?? 0
-        room: view.room
+        room: view.room + (pointPairs.footed ? view.way.height - card.height : 0)
         more: view.words["scroll-more"]
         Item {
             id: parts
@@ -64,9 +67,11 @@ PageFrame {
             readonly property real apart: debriefSizes.paired ? Theme.gap + Math.max(0, Math.min(pointPairs.further, free - Theme.gap))
                 : Math.max(1, !debriefSizes.signed ? 1 : Math.min(2.5, free / Theme.gap / 2 + 0.33)) * Theme.gap
             // What is taken home is seen without scrolling.
-            readonly property bool cardFirst: card.there && free < apart
+            readonly property bool cardFirst: below && free < apart
+            // Whether the card is below the points, and not at the foot of the page.
+            readonly property bool below: card.there && !pointPairs.footed
             width: pane.width
-            height: texts.height + (card.there ? apart + card.height : 0)
+            height: texts.height + (below ? apart + card.height : 0)
             DebriefPoints {
                 id: texts
                 y: parts.cardFirst ? card.height + parts.apart : 0
@@ -82,8 +87,9 @@ PageFrame {
             }
             TakeHomeCard {
                 id: card
-                y: parts.cardFirst ? 0 : texts.height + parts.apart
-                width: parent.width
+                parent: pointPairs.footed ? foot : parts
+                y: pointPairs.footed || parts.cardFirst ? 0 : texts.height + parts.apart
+                width: pointPairs.footed ? shape.footWidth : parts.width
                 debrief: view.debrief
                 page: shape
                 sizes: debriefSizes
@@ -91,5 +97,11 @@ PageFrame {
                 room: view.room - texts.height - (shape.upright ? 1.1 : 1) * Theme.gap
             }
         }
+    }
+    // Beside the way on, both on one line.
+    Item {
+        id: foot
+        x: Theme.across(0, shape.footWidth, parent?.width ?? 0)
+        y: view.room + Theme.gap + view.way.height - card.height
     }
 }

@@ -17,6 +17,8 @@ Item {
     property real size: Theme.body
     property real leadSize: size
     property real leading: 1.08
+    // How long the last line below the heading is at least, as a share of the longest.
+    property real lastLine: inMiddle ? 0.75 : 0.4
 
     // How wide the drawing is.
     property real badge: 2.5 * size
@@ -67,6 +69,7 @@ Item {
             text: (line.lead === "" ? line.text : line.text.slice(line.lead.length + 1)).replace(/(\d) /g, "$1\u00a0")
             horizontalAlignment: line.inMiddle ? Text.AlignHCenter : Text.AlignLeft
             font { pixelSize: line.size; bold: line.strong }
+            least: line.lastLine
             lineHeight: line.leading
         }
     }

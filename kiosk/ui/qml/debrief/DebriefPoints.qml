@@ -39,14 +39,15 @@ Item {
                 required property var modelData
                 required property int index
                 readonly property bool plain: index !== 1
+                readonly property bool alone: plain && (index === 0 || !texts.pairs.split)
                 // As high as the one that says more.
                 readonly property real tall: Math.max(...Array.from(children, each => (each as PointCard)?.said ?? 0))
                 topPadding: texts.pairs.step(index, texts.pairs.further)
                 spacing: Theme.gap
                 Repeater {
-                    model: row.plain ? [row.modelData] : row.modelData.map(point => [point])
+                    model: row.alone ? [row.modelData] : row.modelData.map(point => [point])
                     PointCard {
-                        width: row.plain ? texts.width : (texts.width - row.spacing) / 2
+                        width: row.alone ? texts.width : (texts.width - row.spacing) / 2
                         row: row.index
                         plain: row.plain
                         tall: row.tall

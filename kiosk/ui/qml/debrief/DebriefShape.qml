@@ -19,6 +19,9 @@ QtObject {
     required property bool upright
     required property real column
     required property real room
+    // How large the way on below all that is.
+    required property real wayWidth
+    required property real wayHeight
 
     readonly property bool drawn: points.length > 0 && points[0].sign !== ""
     // Beside a drawing, a heading and its text stand close, so that they are seen as one.
@@ -54,6 +57,15 @@ QtObject {
     function cardLines(texts: list<string>, size: real, width: real): int {
         return texts.filter(text => text !== "").join("\n").split("\n")
             .reduce((sum, part) => sum + Math.ceil(widths.plain(part, size) / width), 0)
+    }
+    // How wide a strip beside the way on is, and how high with a code of this side, texts of this size, and the code in large
+    // letters.
+    readonly property real footWidth: column - wayWidth - 2 * Theme.gap
+    function footHeight(side: real, note: real, letters: real): real {
+        const width = (Theme.unit < 0.9 ? 0.95 : 0.98) * (footWidth - codeSide(side) - 1.5 * Theme.gap - 2 * rim)
+        const lines = [codeName, ...notes].filter(text => text !== "").reduce((sum, text) => sum + widths.plainLines(text, note, width), 0)
+        const told = lines * lineHeight(note) + 0.2 * Theme.gap * notes.filter(text => text !== "").length
+        return Math.max(codeSide(side) + 2 * rim, told + 1.22 * letters)
     }
     // How high the card is about, with a code of this side and so much air, texts in these sizes, and the code in large
     // letters. Without a heading, what names the code is as large as what is said about it.

@@ -28,9 +28,11 @@ Rectangle {
         : pairs.above ? pairs.side + 0.5 * Theme.gap + words.height : Math.max(pairs.side, words.height)
 
     // A plain one that does not lead is a paragraph, if it is no line.
-    readonly property bool flows: plain && row > 0 && !pairs.runOn(pairs.size)
-    readonly property real size: !plain ? pairs.size : flows ? pairs.body : pairs.plainSize(point.text, row, pairs.size)
-    readonly property bool runsOn: plain && !flows && pairs.runsOn(point.text, size)
+    readonly property bool flows: plain && row > 0 && !pairs.split && !pairs.runOn(pairs.size)
+    readonly property real size: !plain ? pairs.size : signed ? pairs.noteSize : flows ? pairs.body : pairs.plainSize(point.text, row, pairs.size)
+    // Two plain ones beside each other have a small drawing each.
+    readonly property bool signed: plain && row > 0 && pairs.split
+    readonly property bool runsOn: plain && !flows && !signed && pairs.runsOn(point.text, size)
     readonly property real inset: plain ? 0 : Theme.gap
 
     height: plain ? tall : tall + 2 * inset
@@ -42,7 +44,9 @@ Rectangle {
         visible: !card.plain
         x: card.pairs.above ? (card.width - width) / 2 : Theme.across(card.inset, width, card.width)
         y: card.pairs.above ? card.inset : (card.height - height) / 2
-        width: card.pairs.side
+        width: card.pairs.above ? card.width - 2 * card.inset : card.pairs.side
+        side: card.pairs.side
+        fanned: card.pairs.above
         sign: card.point.sign
         ofCards: card.pairs.ofCards
         picture: card.picture
@@ -51,13 +55,16 @@ Rectangle {
     }
     SignedLine {
         id: words
-        readonly property real indent: card.plain || card.pairs.above ? 0 : card.pairs.side + Theme.gap
+        readonly property real indent: card.plain ? 0 : card.pairs.above ? card.pairs.narrowed(true) : card.pairs.side + Theme.gap
         visible: !card.runsOn && !card.flows
         x: Theme.across(card.inset + indent, width, card.width)
         y: card.inset + (card.plain ? 0 : card.pairs.above ? card.pairs.side + 0.5 * Theme.gap
             : (card.height - 2 * card.inset - card.tall) / 2 + Math.max(0, (card.pairs.side - height) / 2))
-        width: card.width - indent - 2 * card.inset
+        width: card.width - indent - 2 * card.inset - (card.pairs.above ? indent : 0)
         text: card.point.text
+        sign: card.signed ? card.point.sign : ""
+        badge: card.pairs.noteBadge * size
+        lastLine: card.signed ? 0.6 : inMiddle ? 0.75 : 0.4
         leadSize: card.size
         size: card.pairs.bodyOf(card.size)
         leading: card.page.leading

@@ -10,44 +10,57 @@ QtObject {
 
     readonly property var two: page.points.slice(1, 3)
     readonly property var rest: page.points.slice(3)
-    // Each of these is a row where all have room in one line; if not, they are one paragraph.
-    readonly property var rows: [page.points.slice(0, 1), two, ...(rest.length === 0 ? [] : runOn(size) ? rest.map(point => [point]) : [rest])]
+    // Two of those stand beside each other on an upright page, below the cards. Otherwise each is a row where all have room
+    // in one line; if not, they are one paragraph.
+    readonly property bool split: page.upright && rest.length === 2
+    readonly property var rows: [page.points.slice(0, 1), two, ...(rest.length === 0 ? [] : !split && runOn(size) ? rest.map(point => [point]) : [rest])]
     // How large the headings on the cards are, how wide the drawings, and how large the code below them at most: the first
     // that has room. Headings of two lines come first, then a large code, large drawings and large letters.
     readonly property var found: page.points.length < 3 || !page.drawn ? undefined
-        : trials.find(trial => fits(Theme.size(trial.letters), trial.side * Theme.unit, trial.code * Theme.unit, trial.lines))
+        : trials.find(fits)
     readonly property real size: found === undefined ? 0 : Theme.size(found.letters)
     readonly property real side: found === undefined ? 0 : found.side * Theme.unit
-    readonly property real mostCode: found === undefined ? 0 : found.code * Theme.unit
+    readonly property real mostCode: found === undefined ? 0 : codeOf(found)
+    // Whether the code stands beside the way on of a wide page, and leaves the cards all of the height above that.
+    readonly property bool footed: found?.footed ?? false
     readonly property var trials: page.upright
-        ? [...tried(3, [260, 220, 190], [44]), ...tried(3, [260, 220], [42, 40]), ...tried(3, [260, 200, 160, 120], [38, 36, 34, 32])]
-        : [...tried(2, [188, 168, 150], [42, 40, 38]), ...tried(3, [188, 150], [42, 40, 38]), ...tried(3, [150, 120], [36, 34, 32])]
-    function tried(lines: int, sides: var, sizes: var): var {
+        ? [...tried(3, [260, 220, 190], [44], [250]), ...tried(3, [220, 180, 150], [42, 40], [250]), ...tried(3, [180, 150, 120], [38, 36, 34, 32], [250])]
+        : [...(page.coded ? tried(2, [240, 220, 200, 180, 160], [44, 42, 40], [230, 210], true) : []),
+            ...tried(2, [188, 168, 150], [42, 40, 38]), ...tried(3, [188, 150], [42, 40, 38]), ...tried(3, [150, 120], [36, 34, 32])]
+    // On a small screen a smaller one is still of squares that a telephone can tell apart.
+    function codeOf(trial: var): real {
+        return Math.max(trial.code * Theme.unit, Math.min(290 * Theme.unit, 4 * page.squares))
+    }
+    function tried(lines: int, sides: var, sizes: var, codes = [290, 240], footed = false): var {
         const all = []
-        for (const code of [290, 240])
+        for (const code of codes)
             for (const side of sides)
                 for (const letters of sizes)
-                    all.push({letters, side, code, lines})
+                    all.push({letters, side, code, lines, footed})
         return all
     }
     // All else that is read is as large as each other, and smaller.
     readonly property real body: bodyOf(size)
     function bodyOf(size: real): real {
-        return Math.min(Theme.size(36), size)
+        return Math.min(Theme.size(page.upright ? 36 : 34), size)
     }
     // All parts of the page are as far apart as each other, also from the title and the way on: this is added to a gap.
     // By what their heights have become, as what was reckoned with is a little more.
     required property real taken
+    required property real room
     readonly property real further: {
-        const between = rest.length > 0 ? 3 : 2, closer = 0.2 * Theme.gap * Math.max(0, rows.length - 3)
-        return Math.max(0, Math.min(2.2 * Theme.gap, (page.room - taken - closer - between * Theme.gap) / (between + 2)))
+        const between = (rest.length > 0 ? 3 : 2) - (footed ? 1 : 0), closer = 0.2 * Theme.gap * Math.max(0, rows.length - 3)
+        return Math.max(0, Math.min(2.2 * Theme.gap, (room - taken - closer - between * Theme.gap) / (between + 2)))
     }
 
-    readonly property real letters: Theme.size(page.upright ? 72 : 64)
-    readonly property real pad: Theme.gap
+    readonly property real letters: lettersOf(footed)
+    function lettersOf(footed: bool): real {
+        return Theme.size(page.upright ? 72 : footed ? 56 : 64)
+    }
+    readonly property real pad: footed ? 0 : Theme.gap
 
-    // The drawing on a card is above the words where a card is narrow.
-    readonly property bool above: page.upright
+    // The drawing on a card is above the words where a card is narrow or high.
+    readonly property bool above: page.upright || footed
     // Two cards that are about what was seen and about chance show cards of the game.
     readonly property bool ofCards: two.some(point => ["seen", "chance"].includes(point.sign))
     // How far a row is below the one before it. Plain lines follow each other closely.
@@ -60,6 +73,19 @@ QtObject {
         const body = bodyOf(size)
         return (at === 0 ? [size, 0.95 * size, 0.9 * size, 0.86 * size, body] : [body, 0.95 * body]).find(tried => runsOn(text, tried)) ?? body
     }
+    // How large two of them beside each other are: a little smaller, where that saves a line.
+    readonly property real noteSize: noteSizeOf(size)
+    function noteSizeOf(size: real): real {
+        const body = bodyOf(size), less = 0.94 * body
+        const lines = tried => rest.reduce((sum, point) => sum + noteLines(point.text, tried), 0)
+        return lines(less) < lines(body) ? less : body
+    }
+    // How wide their drawings are, as a share of the size of their letters.
+    readonly property real noteBadge: 1.8
+    function noteLines(text: string, size: real): int {
+        const width = (Theme.unit < 0.9 ? 0.97 : 1) * ((page.column - Theme.gap) / 2 - noteBadge * size - Theme.gap)
+        return text.split("\n").reduce((sum, part, at) => sum + (at === 0 ? page.widths.lines(part, size, width) : page.widths.plainLines(part, size, width)), 0)
+    }
     // Whether all plain points below the cards have room in one line each.
     function runOn(size: real): bool {
         return rest.every(point => runsOn(point.text, plainSize(point.text, 2, size)))
@@ -71,26 +97,35 @@ QtObject {
     }
     // Whether points and card have room in these sizes, with headings of so many lines at most. No text on a card has more
     // than two.
-    function fits(size: real, side: real, code: real, lines: int): bool {
-        return two.every(point => headLines(point, size, side) <= lines && bodyLines(point, size, side) <= 2)
-            && 1.02 * stacked(size, side) + Theme.gap + page.cardHeight(code, pad, 0, bodyOf(size), letters) <= page.room
+    function fits(trial: var): bool {
+        const size = Theme.size(trial.letters), side = trial.side * Theme.unit, code = codeOf(trial)
+        const above = page.upright || trial.footed, width = wordsWidth(side, above)
+        const most = trial.footed ? page.room + page.wayHeight - page.footHeight(code, bodyOf(size), lettersOf(true))
+            : page.room - Theme.gap - page.cardHeight(code, Theme.gap, 0, bodyOf(size), lettersOf(false))
+        return two.every(point => headLines(point, size, width) <= trial.lines && bodyLines(point, size, width) <= 2)
+            && 1.02 * stacked(size, side, above) <= most
     }
     // How wide the words of a card are. Small letters are set on whole pixels, which makes them wider.
-    function wordsWidth(side: real): real {
-        return (Theme.unit < 0.9 ? 0.95 : 0.98) * ((page.column - Theme.gap) / 2 - 2 * Theme.gap - (above ? 0 : side + Theme.gap))
+    function wordsWidth(side: real, above: bool): real {
+        return (Theme.unit < 0.9 ? 0.95 : 0.98) * ((page.column - Theme.gap) / 2 - 2 * Theme.gap - (!above ? side + Theme.gap : 2 * narrowed(above)))
     }
-    function headLines(point: var, size: real, side: real): int {
-        return point.text.includes("\n") ? page.widths.lines(point.text.split("\n")[0], size, wordsWidth(side)) : 0
+    // How much narrower they are on each side below a drawing on a wide page: two headings then have two lines each.
+    function narrowed(above: bool): real {
+        return above && !page.upright ? 70 * Theme.unit : 0
     }
-    function bodyLines(point: var, size: real, side: real): int {
-        return page.pointLines("\n" + point.text.slice(point.text.indexOf("\n") + 1), bodyOf(size), wordsWidth(side))
+    function headLines(point: var, size: real, width: real): int {
+        return point.text.includes("\n") ? page.widths.lines(point.text.split("\n")[0], size, width) : 0
+    }
+    function bodyLines(point: var, size: real, width: real): int {
+        return page.pointLines("\n" + point.text.slice(point.text.indexOf("\n") + 1), bodyOf(size), width)
     }
     // How high all rows are with headings of this size and drawings of this side.
-    function stacked(size: real, side: real): real {
-        return leadHeight(page.points[0].text, size) + Theme.gap + cardsHeight(two, size, side) + (rest.length > 0 ? Theme.gap + restHeight(size) : 0)
+    function stacked(size: real, side: real, above: bool): real {
+        return leadHeight(page.points[0].text, size) + Theme.gap + cardsHeight(size, side, above) + (rest.length > 0 ? Theme.gap + restHeight(size) : 0)
     }
-    function cardsHeight(cards: var, size: real, side: real): real {
-        const said = Math.max(...cards.map(point => page.pointHeight(headLines(point, size, side), size) + page.pointHeight(bodyLines(point, size, side), bodyOf(size))))
+    function cardsHeight(size: real, side: real, above: bool): real {
+        const width = wordsWidth(side, above)
+        const said = Math.max(...two.map(point => page.pointHeight(headLines(point, size, width), size) + page.pointHeight(bodyLines(point, size, width), bodyOf(size))))
         return 2 * Theme.gap + (above ? side + 0.5 * Theme.gap + said : Math.max(side, said))
     }
     function leadHeight(text: string, size: real): real {
@@ -98,9 +133,14 @@ QtObject {
         return (runsOn(text, plain) ? 1 : page.pointLines(text, plain, page.column)) * page.lineHeight(plain)
     }
     function restHeight(size: real): real {
+        const body = bodyOf(size)
+        if (split) {
+            const note = noteSizeOf(size)
+            return Math.max(noteBadge * note, ...rest.map(point => page.pointHeight(noteLines(point.text, note), note)))
+        }
         if (runOn(size))
             return rest.reduce((sum, point) => sum + page.lineHeight(plainSize(point.text, 2, size)) + 0.2 * Theme.gap, -0.2 * Theme.gap)
         const whole = rest.map(point => point.text.replace(/\n/g, ". ")).join(" ")
-        return page.cardLines([whole], bodyOf(size), 0.95 * page.column) * page.lineHeight(bodyOf(size))
+        return page.cardLines([whole], body, 0.95 * page.column) * page.lineHeight(body)
     }
 }

@@ -14,6 +14,7 @@ Rectangle {
     // How much height the points leave it.
     required property real room
 
+    readonly property bool footed: sizes.pairs.footed
     readonly property bool coded: debrief.code !== ""
     // A visitor who is not stored has no code, and may have questions all the same.
     readonly property bool there: coded || debrief.questions !== ""
@@ -26,9 +27,9 @@ Rectangle {
     visible: there
     height: there ? Math.max(pictureHeight, told.height) + 2 * pad : 0
     radius: Theme.radius
-    // Below two cards it is a quiet strip.
-    color: sizes.paired ? Theme.shelf : Theme.white
-    border { color: Theme.edge; width: sizes.paired && !Theme.highContrast ? 0 : 3 * Theme.unit }
+    // Below two cards it is a quiet strip, and beside the way on it has no ground of its own.
+    color: footed ? "transparent" : sizes.paired ? Theme.shelf : Theme.white
+    border { color: Theme.edge; width: footed || sizes.paired && !Theme.highContrast ? 0 : 3 * Theme.unit }
 
     component Note: Balanced {
         width: told.width
@@ -69,7 +70,7 @@ Rectangle {
         id: told
         anchors {
             left: picture.right; leftMargin: (card.coded ? 1.5 : 0.25) * Theme.gap
-            right: parent.right; rightMargin: Theme.gap
+            right: parent.right; rightMargin: card.footed ? 0 : Theme.gap
             verticalCenter: parent.verticalCenter
         }
         spacing: 0.2 * Theme.gap
