@@ -101,7 +101,14 @@ def guarded(limits: Limits = Limits(), environment: Mapping[str, str] = os.envir
     finally:
         signal.set_wakeup_fd(before)
         os.close(writer)
-        with suppress(ChildProcessError):
+        _end(guard)
+
+
+def _end(guard: int) -> None:
+    """End the guard, which would do so by itself unless it is stuck, and could not be waited for then."""
+    with suppress(ChildProcessError):
+        if os.waitpid(guard, os.WNOHANG) == (0, 0):
+            os.kill(guard, signal.SIGKILL)
             os.waitpid(guard, 0)
 
 

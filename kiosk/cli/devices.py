@@ -38,6 +38,9 @@ from kiosk.units import MS_PER_SECOND
 FAILED = 1
 """The exit code when a step failed."""
 
+_LISTEN_S = 0.5
+"""How long a pretended robot waits for a request before it looks whether it is to end."""
+
 
 @dataclass(frozen=True)
 class RobotTrial:
@@ -112,9 +115,11 @@ def _pretend(port: int | None) -> None:
             "Ctrl+C ends it."
         )
         while True:
-            request = heard.get()
-            words = ", ".join(f"{name}={value}" for name, value in request.parameters.items())
-            tell_line(f"{request.path.removeprefix('/furhat/'):12}{words}")
+            with suppress(queue.Empty):
+                # Ctrl+C just before a wait without an end would not be heard, and on Windows during one neither.
+                request = heard.get(timeout=_LISTEN_S)
+                words = ", ".join(f"{name}={value}" for name, value in request.parameters.items())
+                tell_line(f"{request.path.removeprefix('/furhat/'):12}{words}")
 
 
 def greet(settings: Settings, language: str, sentence: str) -> RobotTrial | None:

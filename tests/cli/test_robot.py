@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import queue
 import signal
 import socket
 import subprocess
@@ -22,6 +23,7 @@ from kiosk.config import Settings
 from kiosk.robots.driver import SpokenClip
 from kiosk.robots.voice_packs import PackClips
 from tests.forked import LoadedProgram
+from tests.patience import started
 from tests.robots.furhat_fake import FurhatFake, Mode
 from tests.robots.realtime_fake import RealtimeFake
 
@@ -41,8 +43,7 @@ def test_a_pretended_furhat_takes_what_a_robot_takes_and_prints_it() -> None:
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
     command = [sys.executable, "-u", "-m", "kiosk", "robot", "--pretend", "--port", str(port)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as pretended:
-        assert pretended.stdout is not None
+    with started(command, stdout=subprocess.PIPE, text=True) as pretended:
         assert f"port {port}" in pretended.stdout.readline()
         code, found = tried("--host", "127.0.0.1", "--port", port, "--say", "Hi")
         pretended.send_signal(signal.SIGINT)
@@ -50,6 +51,24 @@ def test_a_pretended_furhat_takes_what_a_robot_takes_and_prints_it() -> None:
     assert (code, found["works"], pretended.returncode) == (0, True, 0)
     assert "text=Hi" in said
     assert "gesture     name=" in said
+
+
+def test_a_pretended_robot_looks_again_and_again_whether_it_is_to_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ctrl+C that comes just before a wait is heard at its end."""
+    waits: list[float | None] = []
+
+    class NoRequests(queue.SimpleQueue[object]):
+        def get(self, block: bool = True, timeout: float | None = None) -> object:  # noqa: ARG002, FBT001, FBT002 - the base's signature
+            waits.append(timeout)
+            raise KeyboardInterrupt if len(waits) > 2 else queue.Empty
+
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
+    with monkeypatch.context() as patch:
+        patch.setattr(queue, "SimpleQueue", NoRequests)
+        result = CliRunner().invoke(recollect, ["robot", "--pretend", "--port", str(port)])
+    assert (result.exit_code, len(waits)) == (0, 3)
+    assert all(wait is not None and wait <= 1 for wait in waits)
 
 
 @pytest.mark.parametrize("other", ["--host=robot", "--kind=furhat", "--json"])

@@ -6,22 +6,29 @@ import os
 import signal
 import subprocess
 import sys
+import time
+from contextlib import AbstractContextManager
+from pathlib import Path
 
+import psutil
 import pytest
 
+from kiosk import guard
 from kiosk.guard import Limits, _Watch, guarded
+from tests.patience import Program, started
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="it cannot fork")
 
 KILLED = -9
 BEAT = b"\0"
 TERM = bytes([signal.SIGTERM])
+STUCK_S = 60.0
 
 
-def guarded_process(act: str, memory_mib: int = 4096) -> subprocess.Popen[str]:
+def guarded_process(act: str, memory_mib: int = 4096) -> AbstractContextManager[Program]:
     """Return a guarded process that does this."""
     environment = {name: value for name, value in os.environ.items() if name != "NOTIFY_SOCKET"}
-    return subprocess.Popen(
+    return started(
         [sys.executable, "-m", "tests.supervisor.guarded", act, str(memory_mib)],
         env=environment,
         stdin=subprocess.PIPE,
@@ -60,7 +67,6 @@ def test_what_a_process_held_before_it_was_guarded_does_not_count() -> None:
 
 def test_a_process_that_is_asked_to_end_ends_although_it_stands_still() -> None:
     with guarded_process("be asked while burning") as process:
-        assert process.stdout is not None
         assert process.stdout.readline() == "ready\n"
         process.terminate()
         _, said = process.communicate()
@@ -70,7 +76,6 @@ def test_a_process_that_is_asked_to_end_ends_although_it_stands_still() -> None:
 
 def test_a_process_that_takes_notice_may_take_longer_to_close() -> None:
     with guarded_process("be asked") as process:
-        assert process.stdout is not None
         assert process.stdout.readline() == "ready\n"
         process.terminate()
         told, said = process.communicate()
@@ -83,6 +88,23 @@ def test_the_guard_ends_with_the_process_and_says_nothing(act: str, code: int) -
         # The guard holds the other end of the errors: they end when it has ended too.
         _, said = process.communicate()
     assert (process.returncode, said) == (code, "")
+
+
+def test_a_guard_that_is_stuck_is_not_waited_for(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    stuck = tmp_path / "stuck"
+
+    def be_stuck(*_: object) -> None:
+        stuck.write_text(str(os.getpid()))
+        time.sleep(STUCK_S)
+        os._exit(0)
+
+    monkeypatch.setattr(guard, "_guard", be_stuck)
+    began = time.monotonic()
+    with guarded(environment={}):
+        while not (stuck.exists() and stuck.read_text()):
+            time.sleep(0.01)
+    assert time.monotonic() - began < STUCK_S
+    assert not psutil.pid_exists(int(stuck.read_text()))
 
 
 def test_what_a_supervisor_guards_has_no_other_guard(monkeypatch: pytest.MonkeyPatch) -> None:
