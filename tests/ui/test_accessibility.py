@@ -127,6 +127,7 @@ def test_every_screen_is_on_the_side_that_was_chosen_and_the_assistant_on_the_ot
             ("ink", "touchable"),
             ("ink", "resting"),
             ("faintInk", "touchable"),
+            ("faintInk", "resting"),
             ("sea", "touchable"),
             ("deepAmber", "touchable"),
             ("white", "sea"),

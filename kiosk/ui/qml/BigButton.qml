@@ -70,7 +70,7 @@ Button {
         textFormat: Text.PlainText
         text: button.words
         font: button.font
-        color: !button.quiet ? Theme.white : button.waits ? Theme.ink : Theme.sea
+        color: !button.quiet ? Theme.white : button.waits ? Theme.faintInk : Theme.sea
         horizontalAlignment: Text.AlignHCenter
         verticalAlignment: Text.AlignVCenter
         // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
@@ -88,15 +88,16 @@ Button {
         text: button.note
         font.pixelSize: noted.font.pixelSize
         horizontalAlignment: Text.AlignHCenter
-        color: button.waits ? Theme.ink : button.quiet ? Theme.sea : Theme.white
+        color: button.waits ? Theme.faintInk : button.quiet ? Theme.sea : Theme.white
         Accessible.ignored: true
     }
     background: Rectangle {
         id: ground
         radius: Math.min(height / 2, button.topPadding + button.font.pixelSize, button.corner)
         color: button.waits ? Theme.resting : button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
+        // Without an edge it looks at rest. With high contrast the edge is all that shows where it is.
         border.color: button.waits ? Theme.slot : Theme.shy
-        border.width: button.quiet || button.waits ? 3 * Theme.unit : 0
+        border.width: button.waits && !Theme.highContrast ? 0 : button.quiet || button.waits ? 3 * Theme.unit : 0
         FocusRing {
             around: button
             radius: ground.radius + reach

@@ -178,7 +178,7 @@ PageFrame {
     FocusScope {
         id: home
         // The card of a rating alone on its page begins where the first of several does.
-        y: shape.alone && !shape.solo ? Math.max(shape.lead, view.sink(height)) : shape.lead
+        y: plainQuestions.roomy !== null ? shape.lead + plainQuestions.larger.sunk(height) : shape.alone && !shape.solo ? Math.max(shape.lead, view.sink(height)) : shape.lead
         width: parent?.width ?? 0
         height: pane.height
         // At first at no item: no key of the page before may answer or skip one; Tab goes to the first.
@@ -191,7 +191,7 @@ PageFrame {
             room: shape.free
             more: view.words["scroll-more"]
             // How far cards stand from each other at least. Options in columns leave the height for more.
-            readonly property real least: plainQuestions.columns !== null ? plainQuestions.cardGap : shape.gap
+            readonly property real least: plainQuestions.roomy !== null ? plainQuestions.larger.apart(plainQuestions.roomy) : plainQuestions.columns !== null ? plainQuestions.cardGap : shape.gap
             // Further apart where the page has room for it; and what belongs together, too.
             readonly property real plain: summed(box => box.plain + (plainQuestions.columns !== null ? plainQuestions.cardGap : (shape.ample ? 20 : shape.easy ? 24 : 30) * Theme.unit))
                 - (plainQuestions.columns !== null ? 12 * Theme.unit : 0)
@@ -199,10 +199,10 @@ PageFrame {
             // Whether all options of each question are as high as its highest, where the page has room for that, and how much
             // that takes.
             readonly property real uneven: summed(box => box.choices?.uneven ?? 0)
-            readonly property bool even: plain + uneven <= plainQuestions.sure
+            readonly property bool even: plainQuestions.roomy !== null || plain + uneven <= plainQuestions.sure
             // How much higher than usual each row of options of an upright page is: two lines fit the highest.
             readonly property real most: 28 * Theme.unit
-            readonly property real grown: !shape.easy || optionRows === 0 ? 0 : room - plain >= optionRows * most ? most
+            readonly property real grown: !shape.easy || plainQuestions.roomy !== null || optionRows === 0 ? 0 : room - plain >= optionRows * most ? most
                 : Math.max(0, Math.floor((room - plain - (even ? uneven : 0)) / optionRows))
             readonly property real addable: summed(box => box.addable)
             readonly property real loosened: (shape.calm || shape.rated) && addable > 0 ? Math.max(0, Math.min(1, (room / share - plain - optionRows * grown) / addable)) : 0

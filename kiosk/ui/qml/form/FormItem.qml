@@ -42,6 +42,8 @@ Item {
     readonly property bool ranged: questions.ranged(item)
     // Whether its options stand in columns.
     readonly property bool columned: questions.columns !== null
+    // How it is laid out where the page has room for that; else null.
+    readonly property var roomy: questions.roomy
     // Whether it has no card.
     readonly property bool bare: page.alone && !page.solo
     signal entered(Item field)
@@ -64,15 +66,15 @@ Item {
     readonly property real lacks: page.ample ? Math.max(0, Math.ceil((1 + question.lineHeight) * lineOf.height) - told.height) : 0
     readonly property real leaves: lacks + (page.ample ? 2 * ((way.item as PointScale)?.inset ?? 0) : 0)
     readonly property real asks: told.height + leaves
-    readonly property real addable: page.alone || beside ? 0 : (page.ample ? 48 : 32) * Theme.unit
+    readonly property real addable: page.alone || beside || roomy !== null ? 0 : (page.ample ? 48 : 32) * Theme.unit
     // A word that it is missed, which stands there, takes some of it: four such cards still fit an upright page.
-    readonly property real usualSpacing: page.alone ? (page.solo ? page.upright ? 3.5 * Theme.textSize : page.tight ? 2 : 3 : 2) * Theme.gap : (page.dense ? 4 : page.ample ? Theme.textSize > 1 ? 16 : missed ? 6 : 16 : page.easy ? 18 : page.airy ? 22 : columned ? 12 : page.calm ? 14 : 8) * Theme.unit
+    readonly property real usualSpacing: roomy !== null ? roomy.spacing : page.alone ? (page.solo ? page.upright ? 3.5 * Theme.textSize : page.tight ? 2 : 3 : 2) * Theme.gap : (page.dense ? 4 : page.ample ? Theme.textSize > 1 ? 16 : missed ? 6 : 16 : page.easy ? 18 : page.airy ? 22 : columned ? 12 : page.calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
-    readonly property real usualMargin: bare ? 0 : page.solo ? (page.tight ? 20 : page.upright ? 56 : 44) * Theme.unit : rows.own || rows.table ? Math.max((rows.table ? 4 : 10) * Theme.unit, rows.margin - taken / 2) : (beside ? page.dense ? 9 : 20 : page.dense ? 8 : page.tight ? 10 : page.ample ? missed ? 9 : 18 : page.easy ? inline ? 28 : 30 : page.airy ? 26 : columned ? inline ? ranged ? 16 : 8 : 16 : page.largeText ? 13 : 17) * Theme.unit
+    readonly property real usualMargin: bare ? 0 : roomy !== null ? roomy.margin : page.solo ? (page.tight ? 20 : page.upright ? 56 : 44) * Theme.unit : rows.own || rows.table ? Math.max((rows.table ? 4 : 10) * Theme.unit, rows.margin - taken / 2) : (beside ? page.dense ? 9 : 20 : page.dense ? 8 : page.tight ? 10 : page.ample ? missed ? 9 : 18 : page.easy ? inline ? 28 : 30 : page.airy ? 26 : columned ? inline ? ranged ? 16 : 8 : 16 : page.largeText ? 13 : 17) * Theme.unit
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
     readonly property real taken: rows.measured ? Math.max(0, told.height - rows.height) : 0
     // Letters have some air above them already; what stands below them does not.
-    readonly property real raised: crowned ? 5 * Theme.unit : page.alone || beside || inline || page.dense || page.ample ? 0 : 4 * Theme.unit
+    readonly property real raised: crowned ? 5 * Theme.unit : page.alone && roomy === null || beside || inline || page.dense || page.ample ? 0 : 4 * Theme.unit
     readonly property var ways: ({
         likert: points, differential: points, pictures: points, slider: line, single: choice, multiple: choice,
         integer: number, text: letters, page: null
@@ -189,7 +191,7 @@ Item {
                     text: box.item.shown
                     Accessible.name: box.item.text
                     font {
-                        pixelSize: box.item.kind === "page" ? Theme.size(36) : box.page.solo && !box.page.largeText ? box.soloText : box.page.alone ? Theme.heading
+                        pixelSize: box.item.kind === "page" ? Theme.size(36) : box.roomy !== null ? box.questions.asking : box.page.solo && !box.page.largeText ? box.soloText : box.page.alone ? Theme.heading
                             : box.beside || (box.item.kind === "slider" && box.rows.text > 0) ? box.missed ? box.rows.noted(box.item) : box.rows.text
                             : box.columned ? box.questions.asking : box.page.dense ? Theme.reading : box.page.easy ? Theme.size(36) : box.page.airy ? Theme.size(38) : Theme.body
                         bold: box.item.kind !== "page"
@@ -203,7 +205,7 @@ Item {
                     visible: box.inline && !box.ranged && text !== ""
                     text: box.item.range ?? ""
                     horizontalAlignment: Text.AlignLeft
-                    font.pixelSize: box.page.large || box.columned ? Theme.size(32) : Theme.small
+                    font.pixelSize: box.page.large || box.columned || box.roomy !== null ? Theme.size(32) : Theme.small
                     wrapMode: Text.Wrap
                     color: Theme.faintInk
                 }

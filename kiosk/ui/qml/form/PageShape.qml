@@ -48,6 +48,11 @@ QtObject {
     readonly property bool ample: rated && places * (widths.leading * (2 * Theme.size(38) + Theme.size(30))
         + (Theme.textSize > 1 ? 190 : 198) * Theme.unit) <= free
 
+    // Whether it is one choice, or two plain questions: these are large, where they have room for that.
+    readonly property bool chosen: alone && items[0].options !== undefined && !items[0].exempts
+    readonly property bool brief: !tight && (chosen || items.length === 2
+        && items.every(item => (item.options !== undefined || item.kind === "integer") && !item.exempts))
+
     // Whether the page says which of the form's pages it is, and whether a line above the cards shows that too.
     readonly property bool numbered: form.progress !== ""
     readonly property bool lined: numbered
@@ -60,8 +65,8 @@ QtObject {
     // How far cards are from each other at least.
     readonly property real gap: (dense || tight ? 8 : 12) * Theme.unit
     // How far the content of a card is from its left and right edges, and what that leaves of its width.
-    readonly property real inset: solo ? 40 * Theme.unit : (easy ? 1.5 : 1.2) * Theme.gap
-    readonly property real inner: column - 2 * inset
+    readonly property real inset: solo || brief ? 40 * Theme.unit : (easy ? 1.5 : 1.2) * Theme.gap
+    readonly property real inner: brief && alone ? column : column - 2 * inset
 
     function scales(item: var): bool {
         return item.kind === "likert" && !item.exempts

@@ -8,52 +8,58 @@ QtObject {
 
     required property PageShape page
     required property WordWidths widths
+    // How one choice or two questions are laid out, where they have room to be large; null elsewhere.
+    readonly property RoomyQuestions larger: RoomyQuestions {
+        page: questions.page
+        widths: questions.widths
+    }
+    readonly property var roomy: larger.found
 
     // How large the questions of a wide page are whose options all have the room for large letters.
-    readonly property real asking: Theme.size(36)
+    readonly property real asking: roomy !== null ? larger.asking : Theme.size(36)
     // How large and how high such options are, how far they are apart, and whether they fill their rows; null if they have
     // no room.
-    readonly property var columns: !page.calm || page.upright || page.alone ? null : columned()
+    readonly property var columns: !page.calm || page.upright || page.alone || roomy !== null ? null : columned()
     // How large options are. Those of an upright page are as large as leaves them as many lines as the usual size does.
-    readonly property real optionSize: columns?.size ?? (page.alone ? Theme.body : !page.airy ? Theme.reading
+    readonly property real optionSize: roomy?.size ?? columns?.size ?? (page.alone ? Theme.body : !page.airy ? Theme.reading
         : (page.easy ? [38, 36].map(Theme.size).find(size => optionLines(size) === optionLines(Theme.size(34))) : null) ?? Theme.size(34))
     readonly property var heights: [84, 82, 80, 78, 77, 76, 75, 74, 72, 70, 68].map(height => height * Theme.unit)
     // How much height can be filled. Small letters are set on whole pixels, which makes them higher.
     readonly property real sure: page.free - (Theme.unit < 0.9 ? 22 : 6) * Theme.unit
     // How high options are at least, and how far they are apart.
-    readonly property real optionHeight: columns !== null ? lowered().height
+    readonly property real optionHeight: roomy !== null ? roomy.height : columns !== null ? lowered().height
         : (page.tight || (page.largeText && !page.large) || page.items.length > 3 ? 62 : page.airy ? 84 : 76) * Theme.unit
-    readonly property real gutter: (columns !== null ? lowered().gutter : page.easy ? (Theme.textSize > 1 ? 20 : 24) : page.airy ? 18 : page.large ? 14 : page.tight || page.largeText ? 8 : 12) * Theme.unit
+    readonly property real gutter: roomy !== null ? roomy.gutter : (columns !== null ? lowered().gutter : page.easy ? (Theme.textSize > 1 ? 20 : 24) : page.airy ? 18 : page.large ? 14 : page.tight || page.largeText ? 8 : 12) * Theme.unit
     // How far options in columns are apart at most and at least. Cards are a little further from each other.
     readonly property real widest: 20
     readonly property real closest: 14
     readonly property real cardGap: gutter + 8 * Theme.unit
     // How large the ring before an option's words is, and what there is before it, between both, and at the end.
-    readonly property real ring: (page.easy ? 44 : 34) * Theme.unit
-    readonly property real beforeRing: (page.largeText && !page.large ? 14 : 20) * Theme.unit
-    readonly property real afterRing: (page.largeText && !page.large ? 10 : 14) * Theme.unit
-    readonly property real afterWords: (page.easy || page.alone ? 20 : 10) * Theme.unit
+    readonly property real ring: roomy !== null ? larger.ring : (page.easy ? 44 : 34) * Theme.unit
+    readonly property real beforeRing: roomy !== null ? larger.beforeRing : (page.largeText && !page.large ? 14 : 20) * Theme.unit
+    readonly property real afterRing: roomy !== null ? larger.afterRing : (page.largeText && !page.large ? 10 : 14) * Theme.unit
+    readonly property real afterWords: roomy !== null ? larger.afterWords : (page.easy || page.alone ? 20 : 10) * Theme.unit
     readonly property real around: ring + beforeRing + afterRing + afterWords + 2 * Theme.unit
     // How much width options have.
-    readonly property real optionsWidth: page.alone ? Math.min(page.column, 860 * Theme.unit) : page.inner
+    readonly property real optionsWidth: page.alone ? page.column : page.inner
     // In how many columns options stand at most. Those of several questions stand in the same two, where there is height for that.
     readonly property int most: !page.tight && page.items.length <= 3 && page.items.filter(item => item.options !== undefined).length > 1 ? 2 : 6
     // Whether the page lacks the height for as many rows as that takes.
     readonly property bool lean: columns?.filled ?? (page.items.length > 3
         || !page.upright && !page.alone && (page.tight || page.largeText || page.calm) && !(equalHeight() <= page.free))
     // How high the field of a number is, and how much width it takes beside its question, with its buttons.
-    readonly property real fieldHeight: page.easy ? 112 * Theme.unit : 1.37 * Theme.body + 32 * Theme.unit
-    readonly property real fieldWidth: (page.easy ? 492 : 470) * Theme.unit
+    readonly property real fieldHeight: roomy !== null ? roomy.height : page.easy ? 112 * Theme.unit : 1.37 * Theme.body + 32 * Theme.unit
+    readonly property real fieldWidth: roomy !== null ? larger.fieldWidth : (page.easy ? 492 : 470) * Theme.unit
 
     // Whether the field of a number stands beside its question: only a calm wide page's and an upright one's cards are
     // broad enough for both.
     function inline(item: var): bool {
-        return (page.upright || page.calm) && !page.alone && !page.largeText && item.kind === "integer" && !item.exempts
+        return roomy !== null ? larger.inline(item) : (page.upright || page.calm) && !page.alone && !page.largeText && item.kind === "integer" && !item.exempts
             && widths.bold(item.text, Theme.size(page.easy ? 37 : 38)) + fieldWidth <= page.inner
     }
     // Whether what the number may be stands in the question's line.
     function ranged(item: var): bool {
-        return columns !== null && item.kind === "integer" && rangeFits(item)
+        return item.kind === "integer" && (roomy !== null ? larger.rangeFits(item) : columns !== null && rangeFits(item))
     }
     // The largest letters with which all questions fit: in columns, or else in rows that are filled. With them, the largest
     // distances that leave options as high as they are easily hit, or else the highest options.
@@ -152,6 +158,8 @@ QtObject {
     }
     // How wide the options of a question are, row by row, and how many lines each row has.
     function rows(item: var): var {
+        if (roomy !== null)
+            return larger.rows(item)
         const size = optionSize, columns = columnsOf(item, size), equal = rowLines(item, size, columns)
         if (lean) {
             const filled = filledRows(item, size, gutter)
@@ -193,7 +201,7 @@ QtObject {
     }
     // How high an option of so many lines is at least.
     function textHeight(lines: int, size: real): real {
-        return lines * Math.ceil(widths.leading * size) + 6 * Theme.unit
+        return roomy !== null ? larger.textHeight(lines, size) : lines * Math.ceil(widths.leading * size) + 6 * Theme.unit
     }
     function optionWidth(option: var, size: real): real {
         return widths.slack * widths.plain(option.text, size)

@@ -78,51 +78,70 @@ TextField {
         onActiveChanged: if (active) field.touched = true
     }
 
-    // A number's: keys with digits, before the words.
-    Grid {
-        id: sign
-        readonly property real beside: 16 * Theme.unit
+    // A number's is a field by its cursor, before the words, and by keys with digits at its end.
+    Rectangle {
+        id: caret
+        objectName: "caret"
+        readonly property real beside: 12 * Theme.unit
         anchors.verticalCenter: parent.verticalCenter
-        x: Theme.across((parent.width - width - beside - prompt.contentWidth) / 2, width, parent.width)
+        x: Theme.across((parent.width - prompt.after - width - beside - prompt.contentWidth) / 2, width, parent.width)
         visible: field.digits && prompt.visible
-        columns: 3
-        spacing: 4 * Theme.unit
-        Repeater {
-            model: 9
-            Rectangle {
-                width: 8 * Theme.unit
-                height: width
-                radius: 2 * Theme.unit
-                color: Theme.sea
+        width: 4 * Theme.unit
+        height: 1.2 * prompt.font.pixelSize
+        color: Theme.sea
+    }
+    Rectangle {
+        id: keys
+        objectName: "keys-sign"
+        anchors.verticalCenter: parent.verticalCenter
+        x: Theme.across(parent.width - width - (parent.height - height) / 2, width, parent.width)
+        // A narrow field needs its width for the words.
+        visible: caret.visible && field.width >= 400 * Theme.unit
+        height: parent.height - 28 * Theme.unit
+        width: Math.min(height, 88 * Theme.unit)
+        radius: 0.6 * Theme.radius
+        color: Theme.touchable
+        Grid {
+            anchors.centerIn: parent
+            columns: 3
+            spacing: 5 * Theme.unit
+            Repeater {
+                model: 9
+                Rectangle {
+                    width: 9 * Theme.unit
+                    height: width
+                    radius: 2 * Theme.unit
+                    color: Theme.sea
+                }
             }
         }
     }
     Text {
         id: prompt
-        readonly property real before: field.digits ? sign.width + sign.beside : 0
+        readonly property real before: field.digits ? caret.width + caret.beside : 0
+        readonly property real after: field.digits && field.width >= 400 * Theme.unit ? keys.width : 0
         readonly property real margin: (field.digits ? 0.6 : 1) * field.leftPadding
         anchors {
             fill: parent
-            leftMargin: margin + (Theme.mirrored ? 0 : before)
-            rightMargin: margin + (Theme.mirrored ? before : 0)
+            leftMargin: margin + (Theme.mirrored ? after : before)
+            rightMargin: margin + (Theme.mirrored ? before : after)
         }
         // A number's stands in the middle, where the cursor would cross it.
         visible: field.length === 0 && field.preeditText === "" && !(field.digits && field.activeFocus)
         textFormat: Text.PlainText
         text: field.hint
         horizontalAlignment: field.digits ? Text.AlignHCenter : undefined
-        font.pixelSize: field.digits ? Math.min(Theme.size(Theme.upright ? 40 : 34), 0.47 * field.height) : Theme.body
+        font.pixelSize: field.digits ? Math.min(Theme.size(Theme.upright ? 40 : 38), 0.47 * field.height) : Theme.body
         fontSizeMode: Text.HorizontalFit
         minimumPixelSize: Theme.size(24)
-        color: field.digits ? Theme.ink : Theme.faintInk
+        color: Theme.faintInk
         verticalAlignment: Text.AlignVCenter
         Accessible.ignored: true
     }
     background: Rectangle {
         radius: Theme.radius
-        // Of the colour of the keys on the screen that type into it. A number's is like a button while it is empty.
-        color: field.digits ? (prompt.visible ? Theme.touchable : Theme.white)
-            : field.activeFocus && !Theme.byKeyboard ? Theme.sand : Theme.white
+        // Of the colour of the keys on the screen that type into it. Options, which are tinted, are no fields.
+        color: field.digits ? Theme.white : field.activeFocus && !Theme.byKeyboard ? Theme.sand : Theme.white
         border { color: Theme.sea; width: (field.activeFocus ? 6 : field.digits ? 4 : 3) * Theme.unit }
         // Inside of a number, which has buttons beside it.
         FocusRing {

@@ -1,0 +1,139 @@
+// How a page lays out one choice, or two plain questions: large, and so that they take the height that there is.
+import QtQuick
+import ".."
+
+QtObject {
+    id: roomy
+
+    required property PageShape page
+    required property WordWidths widths
+
+    readonly property bool sole: page.alone
+    // How large the questions are: as large as leaves each in as few lines as small letters do. One that is alone may have
+    // two on an upright page.
+    readonly property real asking: (sole ? [60, 56, 52, 50, 48, 46, 44] : [44, 42, 40, 38]).map(Theme.size)
+        .find(size => page.items.every(item => widths.lines(item.text, size, page.inner) <= fewest(item))) ?? Theme.size(38)
+    function fewest(item: var): int {
+        return Math.max(sole && page.upright ? 2 : 1, widths.lines(item.text, Theme.size(38), page.inner))
+    }
+    // How far below the line of pages one that is alone begins, which has no card.
+    readonly property real begin: !sole ? 0 : (page.upright ? 28 : 14) * Theme.unit
+    function sunk(tall: real): real {
+        return !sole ? 0 : Math.max(begin, Math.min(72 * Theme.unit, (page.free - tall) / 3))
+    }
+    // How large options are, how high and how far apart; how far the content of a card is from its edges and a question from
+    // its options; and in how many columns options stand. Null where all of that has no room.
+    readonly property var found: page.brief ? search() : null
+
+    // Options stand below each other where a page has the height for that, or else in as many columns as leave no hole in
+    // the last row, or else in columns that may leave one.
+    readonly property var ways: sole || page.upright ? ["list", "even", "two", "three"] : ["even", "two", "three"]
+    readonly property var steps: [[112, 28, 40, 26], [104, 24, 36, 24], [100, 22, 32, 22], [96, 20, 30, 20], [92, 20, 26, 18], [88, 18, 24, 16], [84, 16, 20, 14], [78, 14, 18, 12], [72, 14, 16, 10]]
+    function search(): var {
+        for (const sizes of [[40, 38, 36], [34, 32, 30]])
+            for (const way of ways)
+                for (const [height, gutter, margin, spacing] of steps)
+                    for (const letters of sizes) {
+                        const tried = {way, size: Theme.size(letters), height: height * Theme.unit, gutter: gutter * Theme.unit,
+                            margin: margin * Theme.unit, spacing: (spacing + (sole ? 8 : 0)) * Theme.unit}
+                        const spare = height < 84 && way === "list" ? -1 : room - taken(tried)
+                        if (spare >= 0)
+                            return widened(tried, spare)
+                    }
+        return null
+    }
+    // Small letters are set on whole pixels, which makes them higher.
+    readonly property real room: page.free - begin - (Theme.unit < 0.9 ? 22 : 6) * Theme.unit
+
+    // The same with what the page has left: options become a little higher, and the margins of cards wider.
+    function widened(layout: var, spare: real): var {
+        const cards = page.seen().length
+        const rows = page.seen().reduce((sum, item) => sum + rowsOf(item, layout), 0)
+        const higher = Math.floor(Math.min((sole && rows < 4 ? 36 : page.upright ? 26 : 14) * Theme.unit, 0.55 * spare / Math.max(1, rows)))
+        const left = spare - rows * higher
+        if (sole) {
+            // Columns keep their width, by which they were chosen.
+            const further = layout.way !== "list" ? 0 : Math.floor(Math.min((page.upright ? 10 : 4) * Theme.unit, 0.6 * left / Math.max(1, rows)))
+            return Object.assign(layout, {height: layout.height + higher, gutter: layout.gutter + further})
+        }
+        const wider = Math.floor(Math.min((page.upright ? 32 : 16) * Theme.unit, left / Math.max(1, 4 * cards)))
+        return Object.assign(layout, {height: layout.height + higher, margin: layout.margin + wider, spacing: layout.spacing + Math.floor(wider / 2)})
+    }
+    // How high the page is then. Words that something is missing are part of it.
+    function taken(layout: var): real {
+        const seen = page.seen()
+        return seen.reduce((sum, item) => {
+            const said = widths.lines(item.text, asking, page.inner) * widths.leading * asking
+            const missed = page.form.missing.includes(item.id) ? widths.leading * Theme.small + layout.spacing : 0
+            const answers = item.kind === "integer" ? layout.height : rowsOf(item, layout) * (highest(item, layout) + layout.gutter) - layout.gutter
+            const inside = inline(item) ? Math.max(answers, said + missed + (rangeFits(item) ? 0 : widths.leading * Theme.size(32)))
+                : said + missed + layout.spacing + answers
+            return sum + inside + (sole ? 0 : 2 * layout.margin)
+        }, (seen.length - 1) * apart(layout))
+    }
+    // How far cards are from each other, at least.
+    function apart(layout: var): real {
+        return layout.gutter + 6 * Theme.unit
+    }
+    // Whether a number stands beside its question, and whether what it may be stands in the question's line.
+    readonly property real fieldWidth: 500 * Theme.unit
+    function inline(item: var): bool {
+        return item.kind === "integer" && widths.bold(item.text, asking) + fieldWidth + Theme.gap <= page.inner
+    }
+    function rangeFits(item: var): bool {
+        return widths.bold(item.text, asking) + widths.slack * widths.plain(item.range, Theme.size(32)) + 2.25 * Theme.gap <= page.inner - fieldWidth
+    }
+
+    // How large the ring before an option's words is, and all that is beside the words.
+    readonly property real ring: 46 * Theme.unit
+    readonly property real beforeRing: 28 * Theme.unit
+    readonly property real afterRing: 20 * Theme.unit
+    readonly property real afterWords: 24 * Theme.unit
+    readonly property real around: ring + beforeRing + afterRing + afterWords + 2 * Theme.unit
+
+    function columnsOf(item: var, layout: var): int {
+        const all = item.options.length
+        const fits = (columns, most) => columns <= all && item.options.every(option => linesOf(option, columns, layout) <= most)
+        switch (layout.way) {
+        case "list":
+            return 1
+        case "even":
+            return [3, 2].find(columns => all % columns === 0 && fits(columns, 1)) ?? 1
+        case "two":
+            return fits(2, 2) ? 2 : 1
+        default:
+            return fits(3, 2) ? 3 : fits(2, 2) ? 2 : 1
+        }
+    }
+    function rowsOf(item: var, layout: var): int {
+        return item.kind === "integer" ? 0 : Math.ceil(item.options.length / columnsOf(item, layout))
+    }
+    function tileWidth(columns: int, layout: var): real {
+        return Math.floor((page.inner - (columns - 1) * layout.gutter) / columns)
+    }
+    // How many lines an option has there; many if a word of it has no room beside others.
+    function linesOf(option: var, columns: int, layout: var): int {
+        const wide = tileWidth(columns, layout) - around
+        return widths.slack * widths.plain(option.text, layout.size) <= wide ? 1
+            : columns > 1 && option.text.split(" ").some(word => widths.plain(word, layout.size) > 0.98 * wide) ? 9
+            : widths.plainLines(option.text, layout.size, wide)
+    }
+    function mostLines(item: var, layout: var): int {
+        const columns = columnsOf(item, layout)
+        return Math.max(...item.options.map(option => linesOf(option, columns, layout)))
+    }
+    // How high each option of a question is: as high as the one with the most lines.
+    function highest(item: var, layout: var): real {
+        const lines = mostLines(item, layout)
+        return Math.ceil(lines > 1 ? Math.max(layout.height, textHeight(lines, layout.size)) : layout.height)
+    }
+    function textHeight(lines: int, size: real): real {
+        return lines * Math.ceil(widths.leading * size) + 16 * Theme.unit
+    }
+    // How wide the options of a question are, row by row, and how many lines each row has.
+    function rows(item: var): var {
+        const columns = columnsOf(item, found), wide = tileWidth(columns, found), lines = mostLines(item, found)
+        return Array.from({length: rowsOf(item, found)}, (_, row) => ({lines,
+            widths: item.options.slice(row * columns, (row + 1) * columns).map(() => wide)}))
+    }
+}

@@ -1,0 +1,166 @@
+"""One choice on its page, or two plain questions: answers are large, even, and leave no hole."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import pytest
+from PySide6.QtCore import QRectF
+from PySide6.QtQuick import QQuickItem
+from pytestqt.qtbot import QtBot
+
+from kiosk.assistance.wording import Catalogue
+from kiosk.config import ASSETS
+from kiosk.experiment.events import TextSize
+from kiosk.experiment.questionnaire import Item, Questionnaire
+from kiosk.ui.simulated_visitor import lay_out
+from tests.samples import CATALOGUES, ENGLISH
+from tests.ui.conftest import Booth
+from tests.ui.looking import appearance, contrast, items, place, texts
+
+GERMAN = ASSETS / "templates" / "two-languages"
+WORDS = CATALOGUES | {"de": Catalogue(GERMAN / "de"), "ar": ENGLISH}
+WIDE, UPRIGHT = (1920, 1080), (1080, 1920)
+SIZES = [WIDE, UPRIGHT, (1280, 800), (1366, 768)]
+ANSWERS = (
+    *("yes", "now and then", "never", "often", "at work", "at home"),
+    *("with friends", "in a shop", "somewhere else", "I prefer not to say", "sometimes", "daily"),
+)
+AGE, GENDER, ROBOTS = Questionnaire.read(ASSETS / "questionnaires" / "about-you.toml").items
+
+
+@pytest.fixture
+def booth(resting_booth: Booth) -> Booth:
+    """Return the booth that all tests of this module share."""
+    return resting_booth
+
+
+def ask(
+    booth: Booth,
+    qtbot: QtBot,
+    size: tuple[int, int],
+    *asked: Item,
+    language: str = "en",
+    letters: TextSize | None = None,
+) -> list[list[QQuickItem]]:
+    """Show these questions in a window of this size; returns the options of each that has some."""
+    window, screens = booth.app.window, booth.app.screens
+    screens.set_language(WORDS[language])
+    screens.kiosk.begin((language,), language, booth.app.assigner.study.settings.consent)
+    screens.kiosk.set_text_size(letters or TextSize.NORMAL)
+    window.resize(*size)
+    qtbot.waitUntil(lambda: window.contentItem().width() == size[0])
+    screens.form.show(asked, 1, 1)
+    screens.kiosk.show("form")
+    booth.settle()
+    lay_out(window)
+    choices = [item for item in asked if item.kind == "single"]
+    return [[booth.item(f"option-{item.id}-{option.id}") for option in item.options] for item in choices]
+
+
+def choice(*answers: str) -> Item:
+    """Return the question about robots with these answers."""
+    options = [{"id": f"option{number}", "text": {"en": answer}} for number, answer in enumerate(answers)]
+    return type(ROBOTS).model_validate(ROBOTS.model_dump() | {"options": options})
+
+
+def edges(item: QQuickItem) -> QRectF:
+    """Where an item is in the window."""
+    return item.mapRectToScene(QRectF(0, 0, item.width(), item.height()))
+
+
+def rows(options: list[QQuickItem]) -> list[list[QRectF]]:
+    """Return where options are, row by row."""
+    tops = sorted({round(edges(option).top()) for option in options})
+    return [[edges(option) for option in options if round(edges(option).top()) == top] for top in tops]
+
+
+def are_even(options: list[QQuickItem]) -> bool:
+    """Whether options are as large as each other and stand in a grid."""
+    sizes = {(round(option.width()), round(option.height())) for option in options}
+    lefts = {round(edge.left()) for edge in (edges(option) for option in options)}
+    return len(sizes) == 1 and len(lefts) == max(map(len, rows(options)))
+
+
+@pytest.mark.parametrize("language", ["en", "es", "it", "de", "ar"])
+@pytest.mark.parametrize("size", [WIDE, UPRIGHT], ids=["wide", "upright"])
+def test_the_shipped_questions_about_the_visitor_have_large_answers_without_a_hole(
+    booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
+) -> None:
+    for asked in ((AGE, GENDER), (ROBOTS,)):
+        (options,) = ask(booth, qtbot, size, *asked, language=language)
+        assert are_even(options)
+        assert len({len(row) for row in rows(options)}) == 1
+        assert min(option.height() for option in options) >= (96 if size == WIDE else 112)
+        assert min(text.property("font").pixelSize() for option in options for text in texts(option)) >= 38
+        assert max(text.property("lineCount") for option in options for text in texts(option)) == 1
+        # They take the page, and leave the way on some air.
+        free = edges(booth.item("continue")).top() - max(edges(option).bottom() for option in options)
+        assert 24 <= free <= 140
+        assert not booth.sees("more")
+
+
+@pytest.mark.parametrize("letters", [TextSize.NORMAL, TextSize.LARGEST])
+@pytest.mark.parametrize("size", SIZES)
+def test_a_choice_of_few_or_many_answers_fits_its_page_in_even_rows(
+    booth: Booth, qtbot: QtBot, size: tuple[int, int], letters: TextSize
+) -> None:
+    for count in range(2, len(ANSWERS) + 1):
+        (options,) = ask(booth, qtbot, size, choice(*ANSWERS[:count]), letters=letters)
+        assert are_even(options), count
+        if (size, letters) in ((WIDE, TextSize.NORMAL), (UPRIGHT, TextSize.NORMAL)):
+            assert not booth.sees("more"), count
+            # A page of few answers has them below each other.
+            assert count > 6 or all(len(row) == 1 for row in rows(options))
+        for above, below in pairwise(rows(options)):
+            assert below[0].top() - above[0].bottom() >= 8
+
+
+@pytest.mark.parametrize("size", [WIDE, UPRIGHT], ids=["wide", "upright"])
+def test_a_word_that_has_no_room_beside_others_has_a_row(booth: Booth, qtbot: QtBot, size: tuple[int, int]) -> None:
+    long = "Donaudampfschifffahrtselektrizitätenhauptbetriebswerk"
+    for asked in ((choice(*ANSWERS[:6], long),), (AGE, choice("yes", "no", long))):
+        (options,) = ask(booth, qtbot, size, *asked)
+        assert are_even(options)
+        for option in options:
+            (words,) = texts(option)
+            assert words.property("contentWidth") <= words.width() + 1
+            assert edges(words).right() <= edges(option).right()
+
+
+def test_what_is_missing_is_said_without_scrolling(booth: Booth, qtbot: QtBot) -> None:
+    for size in SIZES:
+        for asked in ((AGE, GENDER), (ROBOTS,)):
+            (options,) = ask(booth, qtbot, size, *asked)
+            before = options[0].height()
+            booth.app.screens.form.show_missing(tuple(item.id for item in asked))
+            lay_out(booth.app.window)
+            assert not booth.sees("more")
+            assert 0.6 * before <= options[0].height() <= before
+
+
+@pytest.mark.parametrize("language", ["en", "ar"])
+@pytest.mark.parametrize("size", [WIDE, UPRIGHT], ids=["wide", "upright"])
+def test_a_field_for_a_number_looks_like_a_field_and_not_like_an_answer(
+    booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
+) -> None:
+    (options,) = ask(booth, qtbot, size, AGE, GENDER, language=language)
+    field = booth.item("number-age")
+    picture = booth.app.window.grabWindow()
+    *_, ground, _ = appearance(options[0], picture)
+    middle = place(field).center()
+    inside = picture.pixelColor(middle.x(), place(field).top() + 12)
+    assert inside != ground
+    (hint,) = [text for text in texts(field) if text.property("text")]
+    caret, keys = (item for item in items(field) if item.objectName() in {"caret", "keys-sign"})
+    assert contrast(picture.pixelColor(place(caret).center()), inside) >= 3
+    # The cursor is before the words, and the sign of the keys after them, at the end.
+    start, end = edges(caret).center().x(), edges(keys).center().x()
+    words = edges(hint).center().x()
+    assert (start < words < end) if language == "en" else (start > words > end)
+    booth.app.screens.form.draft("age", "30")
+    field.setProperty("text", "30")
+    lay_out(booth.app.window)
+    assert not caret.isVisible()
+    assert not keys.isVisible()
+    field.setProperty("text", "")
