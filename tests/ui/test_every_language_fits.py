@@ -736,28 +736,33 @@ def test_all_points_of_a_page_of_ratings_have_the_same_ground(
 
 
 @pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)
-def test_a_page_with_fewer_ratings_has_higher_cards_and_scales_in_the_columns_of_the_full_ones(
+def test_a_page_with_fewer_ratings_has_the_first_cards_of_the_full_ones_and_leaves_the_rest_to_the_helper(
     kiosk: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
-    full, fewer = rating_pages(kiosk, layout, SIXTEEN[:4] + ASKED["trust"].items)
-    again, fewest = rating_pages(kiosk, layout, SIXTEEN[:4] + ASKED["trust"].items[:2])
-    assert [len(full), len(fewer), len(again), len(fewest)] == [4, 3, 4, 2]
-    _, usual, _, points = full[0]
-    for page in (fewer, fewest):
-        assert page[0][1].top() == pytest.approx(usual.top(), abs=1)
-        assert {gap - gaps(full)[0] for gap in gaps(page)} <= {-1, 0, 1}
-        assert len({round(card.height()) for _, card, _, _ in page}) == 1
-        for _, card, _, scale in page:
-            assert [card.left(), card.width()] == pytest.approx([usual.left(), usual.width()], abs=1)
-            assert [scale.left(), scale.width()] == pytest.approx([points.left(), points.width()], abs=1)
-            assert scale.height() == pytest.approx(points.height(), abs=1)
-            # What the card has more is as much above as below.
-            assert scale.center().y() - card.center().y() == pytest.approx(
-                points.center().y() - usual.center().y(), abs=1
-            )
-    # The last of three ends where that of four does. Two are no higher than in the place of three, or they look empty.
-    assert fewer[-1][1].bottom() == pytest.approx(full[-1][1].bottom(), abs=3)
-    assert fewest[-1][1].height() == pytest.approx(1.5 * usual.height() + gaps(full)[0] / 2, abs=1)
+    ground, wide = kiosk[0].shown.contentItem(), layout.width > layout.height
+    pages, feet, words = {}, {}, {}
+    for number in (3, 2):
+        for page in rating_pages(kiosk, layout, SIXTEEN[:4] + ASKED["trust"].items[:number]):
+            back, on, why = (find_item(ground, name) for name in ("turned-away", "continue", "why-turned-away"))
+            assert back is not None
+            assert on is not None
+            assert why is not None
+            assert not painted(why).intersects(whole(on))
+            pages[len(page)], feet[len(page)] = page, (whole(back), whole(on))
+            words[len(page)] = why.property("font").pixelSize()
+    assert sorted(pages) == [2, 3, 4]
+    for number in (2, 3):
+        for before, after in zip(pages[4], pages[number], strict=False):
+            for old, new in ((before[1], after[1]), (before[3], after[3])):
+                assert new.getRect() == pytest.approx(old.getRect(), abs=1)
+        # The helper's back begins below the last card, or below the way on, which follows the cards of an upright page.
+        standing, below = feet[number]
+        last, gone = pages[number][-1][1], pages[4][-1][1].bottom() - pages[number][-1][1].bottom()
+        assert below.top() == pytest.approx(feet[4][1].top() - (0 if wide else gone), abs=2)
+        assert standing.top() >= (last if wide else below).bottom() + 23
+        assert standing.bottom() == pytest.approx(layout.height, abs=1)
+        assert standing.height() >= 1.8 * feet[4][0].height()
+        assert words[number] > words[4]
 
 
 @pytest.mark.parametrize("language", SHIPPED)
@@ -830,7 +835,7 @@ def test_that_an_item_does_not_apply_is_a_column_after_the_points_of_a_wide_page
 def test_ten_points_alone_on_a_page_are_alike_and_large_over_its_width_below_a_large_question(
     kiosk: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
-    four, *_ = rating_pages(kiosk, layout)
+    (four,) = rating_pages(kiosk, layout, SIXTEEN[:4])
     pages = rating_pages(kiosk, layout, ALONE)
     ((_, card, shown, scale),) = next(pages)
     ground = kiosk[0].shown.contentItem()
@@ -841,19 +846,22 @@ def test_ten_points_alone_on_a_page_are_alike_and_large_over_its_width_below_a_l
     wide = layout.width > layout.height
     # An upright page has less room beside them than below.
     assert len({(round(place.width()), round(place.height())) for place in places}) == 1
-    assert places[0].width() >= (142 if wide else 82)
-    assert places[0].height() == pytest.approx(places[0].width() if wide else 144, abs=1)
-    assert all(after.left() - point.right() >= 7 for point, after in pairwise(places))
+    assert places[0].width() >= (142 if wide else 80)
+    assert places[0].height() == pytest.approx(places[0].width() if wide else 230, abs=1)
+    assert all(after.left() - point.right() >= 12 for point, after in pairwise(places))
+    numbers = [text for text in texts(ground) if text.property("text") in {str(n) for n in range(1, 11)}]
+    assert {text.property("font").pixelSize() >= 48 for text in numbers} == {True}
+    assert {text.property("contentWidth") < places[0].width() - 12 for text in numbers} == {True}
     assert scale.left() - card.left() == pytest.approx(card.right() - scale.right(), abs=1)
-    assert 40 <= scale.left() - card.left() <= 48
+    assert 28 <= scale.left() - card.left() <= 48
     asked = next(text for text in texts(ground) if text.property("text").replace("\xa0", " ") == ALONE[0].text["en"])
-    assert asked.property("font").pixelSize() >= (60 if wide else 64)
-    # The card ends where the last of four does, and what is on it stands in its middle.
-    assert card.bottom() == pytest.approx(four[-1][1].bottom(), abs=2)
+    assert asked.property("font").pixelSize() >= (60 if wide else 80)
+    # The card is no higher than what is on it, with as much air above as below.
+    assert card.bottom() < four[-1][1].bottom() - 100
     assert card.top() <= four[0][1].top() + 1
     assert abs(shown.center().x() - card.center().x()) <= 2
     ends = [painted(text) for text in texts(ground) if text.property("text") in ("not at all", "completely")]
-    assert [end.height() > 45 for end in ends] == [True, True]
+    assert [end.height() > 60 for end in ends] == [True, True]
     assert abs((shown.top() - card.top()) - (card.bottom() - ends[0].bottom())) <= 16
     assert [ends[0].left(), ends[1].right()] == pytest.approx([scale.left(), scale.right()], abs=1)
     # It is the one to answer next.
@@ -888,7 +896,7 @@ def test_a_rating_of_any_kind_alone_on_a_page_has_a_card_and_its_width(
     assert round(ends[0].left() - whole(card).left()) == round(whole(card).right() - ends[-1].right()) >= 16
     (described,) = kiosk[0].screens.form.property("items")
     words = [text for text in texts(ground) if text.property("text") in (described["left"], described["right"])]
-    assert [text.property("font").pixelSize() for text in words] == [40, 40]
+    assert [text.property("font").pixelSize() for text in words] == [48, 48]
     line = find_item(ground, "page-line")
     assert line is not None
     assert round(whole(line).width()) == round(whole(card).width())
@@ -927,28 +935,32 @@ def test_the_avatar_shows_its_back_at_one_place_on_the_pages_that_rate_it_and_no
         if back is None or why is None:
             continue
         # On the lower edge of the window, in full size, with one line beside it.
-        assert 0 <= whole(back).left() - whole(why).right() <= 16
-        if layout.width > layout.height:
-            assert abs(whole(why).united(whole(back)).center().x() - layout.width / 2) < 1
+        wide = layout.width > layout.height
+        before, after = (why, back) if wide else (back, why)
+        assert 0 <= whole(after).left() - whole(before).right() <= 24
         assert abs(whole(back).bottom() - layout.height) < 1
         assert whole(back).height() >= 180
         assert why.property("lineCount") == 1
-        assert 34 <= why.property("font").pixelSize() <= 36
+        assert 34 <= why.property("font").pixelSize() <= 46
     screens.avatar.leave(away=False)
-    assert len({place.left() for place in places}) == (0 if layout.robot else 1)
+    # In the middle of a wide page, and at the edge of an upright one.
+    wanted = layout.width / 2 if layout.width > layout.height else 48
+    found = [place.center().x() if layout.width > layout.height else place.left() for place in places]
+    assert found == pytest.approx([wanted] * (0 if layout.robot else 2), abs=1)
 
 
 @pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1366, 768), Layout(1080, 1920)], ids=str)
 @pytest.mark.parametrize("size", TextSize)
+@pytest.mark.parametrize("items", [SIXTEEN[:4], ASKED["trust"].items, ALONE], ids=len)
 def test_the_back_of_the_avatar_stands_clear_and_still_whatever_is_answered(
-    kiosk: tuple[Window, StudyConfig], layout: Layout, size: TextSize
+    kiosk: tuple[Window, StudyConfig], layout: Layout, size: TextSize, items: tuple[Item, ...]
 ) -> None:
     window, ground = kiosk[0], kiosk[0].shown.contentItem()
     assert list(shown_in(kiosk, layout, ("four ratings",))) == ["four ratings"]
     # Its words beside the way on are long: with the largest texts, they push the back from the middle.
     window.screens.set_language(next(plan for plan in kiosk[1].plans if plan.language == "es").catalogue)
-    screens, items = window.screens, ASKED["social-intelligence"].items[:4]
-    turn = partial(screens.form.show, items, 2, 5)
+    screens = window.screens
+    turn = partial(screens.form.show, items, 2, 5, alike=pages_alike([SIXTEEN[:4], items], items))
     states: list[Callable[[], None]] = [
         lambda: screens.kiosk.offer_back(offered=False),
         lambda: screens.kiosk.offer_back(offered=True),

@@ -6,7 +6,9 @@ import QtQuick.Shapes
 Item {
     id: back
 
-    width: 1.12 * height
+    // How much wider than high it is.
+    readonly property real shape: 1.12
+    width: shape * height
     clip: true
 
     component Seam: ShapePath {

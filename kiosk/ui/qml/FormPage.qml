@@ -32,7 +32,7 @@ Item {
         Binding on width { when: page.follows; value: page.windowLayout.widthOn("form"); restoreMode: Binding.RestoreNone }
         Binding on height { when: page.follows; value: page.windowLayout.heightOn("form"); restoreMode: Binding.RestoreNone }
         Binding on accompanied { when: page.follows; value: page.windowLayout.accompanied && !page.avatar.away; restoreMode: Binding.RestoreNone }
-        Binding on turned { when: page.follows; value: page.windowLayout.accompanied && page.avatar.away; restoreMode: Binding.RestoreNone }
+        Binding on turned { when: page.follows; value: page.avatar.present && page.avatar.away; restoreMode: Binding.RestoreNone }
         focus: true
         aligned: page.windowLayout.accompanied
         before: page.windowLayout.pageX

@@ -33,7 +33,10 @@ PageFrame {
     // Whether the helper stands behind a wide page, with its back to it, and how much height above the ways is its back's.
     property bool turned: false
     readonly property real kept: turned && !shape.upright && wider && Theme.textSize <= 1.15
-        ? Math.max(0, 200 * Theme.unit - (height - foot + Theme.gap)) : 0
+        ? Math.max(0, 200 * Theme.unit - (height - usualFoot + Theme.gap)) : 0
+    // How much height its ratings leave to that back, which is larger then. Below an upright page, the ways stand higher.
+    readonly property real spare: !turned ? 0 : Math.max(0, shape.solo ? shape.cleared - pane.tall : ratingRows.table ? ratingRows.left : shape.scaled ? pane.vacant : 0)
+    raised: shape.upright ? spare : 0
     // Whether it is and stays so.
     readonly property bool still: keyboard.field === null && (shape.upright || !pane.long)
 
@@ -178,7 +181,8 @@ PageFrame {
     FocusScope {
         id: home
         // The card of a rating alone on its page begins where the first of several does.
-        y: plainQuestions.roomy !== null ? shape.lead + plainQuestions.larger.sunk(height) : shape.alone && !shape.solo ? Math.max(shape.lead, view.sink(height)) : shape.lead
+        y: plainQuestions.roomy !== null ? shape.lead + plainQuestions.larger.sunk(height)
+            : (view.wider ? view.turned : !shape.alone) ? shape.lead : Math.max(shape.lead, view.sink(height))
         width: parent?.width ?? 0
         height: pane.height
         // At first at no item: no key of the page before may answer or skip one; Tab goes to the first.
@@ -206,22 +210,18 @@ PageFrame {
                 : Math.max(0, Math.floor((room - plain - (even ? uneven : 0)) / optionRows))
             readonly property real addable: summed(box => box.addable)
             readonly property real loosened: (shape.calm || shape.rated) && addable > 0 ? Math.max(0, Math.min(1, (room / share - plain - optionRows * grown) / addable)) : 0
-            readonly property real tall: summed(box => box.least)
+            readonly property real tall: summed(box => box.height)
             readonly property real heads: summed(box => box.head)
             // Adds up what each item that is there has of something.
             function summed(of: var): real {
                 return view.all().reduce((sum, box) => sum + (box?.there ? of(box) : 0), 0)
             }
             // How many times as many places as items the page has.
-            readonly property real share: view.form.fullest > 0 ? shape.rows() / Math.max(1, shape.seen().length) : 1
+            readonly property real share: shape.rows() / Math.max(1, shape.seen().length)
+            // How much the places take that the page has beyond its items, as far as high cards do not need it.
+            readonly property real vacant: Math.min(room * (1 - boxes.count / Math.max(boxes.count, shape.rows())), room - tall - shape.seen().length * least)
             spacing: Math.max(least, Math.min(ratingRows.table?.gap ?? (shape.upright ? 72 : view.wider ? 28 : 44) * Theme.unit,
-                (room - heads - share * (tall - heads)) / Math.max(1, boxes.count, view.form.fullest)))
-            // The cards of a page with fewer of them than the fullest one with its scale are higher: the last ends where
-            // that page's last does. The limit is what two cards in the place of three need: higher ones look empty.
-            readonly property int absent: Math.max(0, view.form.fullest - view.form.items.length)
-            readonly property real usual: (tall - heads) / Math.max(1, shape.seen().length)
-            readonly property real stretched: absent === 0 ? 0 : Math.max(0, Math.floor(Math.min((usual + spacing) / 2,
-                absent * (usual + spacing) / view.form.items.length, (room + spacing - tall) / Math.max(1, shape.seen().length) - spacing)))
+                (room - heads - share * (tall - heads)) / Math.max(boxes.count, shape.rows())))
             Repeater {
                 id: boxes
                 model: view.form.items
@@ -236,7 +236,6 @@ PageFrame {
                     questions: plainQuestions
                     loosened: pane.loosened
                     grown: pane.grown
-                    stretched: pane.stretched
                     even: pane.even
                     // Over an upright page the keys cover other questions: these step back until they can be seen again.
                     opacity: keyboard.card === asked || !view.under ? 1 : 0.3

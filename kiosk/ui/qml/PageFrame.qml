@@ -16,6 +16,8 @@ FocusScope {
     property alias quiet: ways.quiet
     property alias other: ways.other
     property alias way: ways
+    // How far above their usual place the ways stand, where the content leaves height.
+    property real raised: 0
     // How far title and content are moved up, for a keyboard at the bottom.
     property real lift: 0
     // How much of the bottom that keyboard covers; the ways then stand above it.
@@ -39,10 +41,11 @@ FocusScope {
     property bool aligned: false
     readonly property real column: Math.min((width <= 1600 * Theme.unit ? 1240 : wider ? aligned ? 1787 : 1560 : 1300) * Theme.unit, width - 4 * Theme.gap)
     // The height that there is for the content.
-    readonly property real room: foot - begin - Theme.gap
+    readonly property real room: usualFoot - begin - Theme.gap
     // Where the content begins and the ways are, while nothing is moved up.
     readonly property alias begin: body.y
     readonly property alias foot: ways.y
+    readonly property real usualFoot: height - ways.height - below
     readonly property real titleWidth: heading.contentWidth
     // The middle of the capitals of the title's last line, as seen from the content, and whether it is the only one.
     readonly property real titleMiddle: heading.y + heading.height - capitals.descent - 0.36 * heading.font.pixelSize - body.y
@@ -119,7 +122,7 @@ FocusScope {
     WayOn {
         id: ways
         x: body.x
-        y: frame.height - height - frame.below
+        y: frame.usualFoot - frame.raised
         transform: Translate {
             id: rise
             y: frame.covered > 0 ? frame.below - 0.5 * Theme.gap - frame.covered : 0

@@ -21,8 +21,6 @@ Item {
     // options are.
     property real loosened: 0
     property real grown: 0
-    // How much higher than its content asks it is, where the page has fewer cards than others with its scale.
-    property real stretched: 0
     // Whether all options of it are as high as the highest.
     property bool even: false
     // Whether the keys on the screen type into it.
@@ -57,7 +55,7 @@ Item {
     readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asks + (way.active ? usualSpacing + (choices?.least ?? way.height) : 0)) + 2 * usualMargin
     // How large the question of a card alone on its page is: as large as leaves it in few lines.
     readonly property real soloText: {
-        const [sizes, most] = page.upright ? [[72, 68, 64, 60, 56], 3] : [[64, 62, 60, 58, 56], Math.max(1, page.widths.lines(item.shown, Theme.size(52), page.inner))]
+        const [sizes, most] = page.upright ? [[88, 80, 72, 68, 64, 60, 56], 3] : [[64, 62, 60, 58, 56], Math.max(1, page.widths.lines(item.shown, Theme.size(52), page.inner))]
         return sizes.map(size => Theme.size(size)).find(size => page.widths.lines(item.shown, size, page.inner) <= most) ?? Theme.size(52)
     }
     // How much height its question and its scale leave of what two lines and a scale of five points take: on such a page
@@ -68,9 +66,9 @@ Item {
     readonly property real asks: told.height + leaves
     readonly property real addable: page.alone || beside || roomy !== null ? 0 : (page.ample ? 48 : 32) * Theme.unit
     // A word that it is missed, which stands there, takes some of it: four such cards still fit an upright page.
-    readonly property real usualSpacing: roomy !== null ? roomy.spacing : page.alone ? (page.solo ? page.upright ? 3.5 * Theme.textSize : page.tight ? 2 : 3 : 2) * Theme.gap : (page.dense ? 4 : page.ample ? Theme.textSize > 1 ? 16 : missed ? 6 : 16 : page.easy ? 18 : page.airy ? 22 : columned ? 12 : page.calm ? 14 : 8) * Theme.unit
+    readonly property real usualSpacing: roomy !== null ? roomy.spacing : page.alone ? (page.solo ? page.upright ? 4 * Theme.textSize : page.tight ? 2 : 3.5 : 2) * Theme.gap : (page.dense ? 4 : page.ample ? Theme.textSize > 1 ? 16 : missed ? 6 : 16 : page.easy ? 18 : page.airy ? 22 : columned ? 12 : page.calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
-    readonly property real usualMargin: bare ? 0 : roomy !== null ? roomy.margin : page.solo ? (page.tight ? 20 : page.upright ? 56 : 44) * Theme.unit : rows.own || rows.table ? Math.max((rows.table ? 4 : 10) * Theme.unit, rows.margin - taken / 2) : (beside ? page.dense ? 9 : 20 : page.dense ? 8 : page.tight ? 10 : page.ample ? missed ? 9 : 18 : page.easy ? inline ? 28 : 30 : page.airy ? 26 : columned ? inline ? ranged ? 16 : 8 : 16 : page.largeText ? 13 : 17) * Theme.unit
+    readonly property real usualMargin: bare ? 0 : roomy !== null ? roomy.margin : page.solo ? (page.tight ? 20 : page.upright ? 80 : 64) * Theme.unit : rows.own || rows.table ? Math.max((rows.table ? 4 : 10) * Theme.unit, rows.margin - taken / 2) : (beside ? page.dense ? 9 : 20 : page.dense ? 8 : page.tight ? 10 : page.ample ? missed ? 9 : 18 : page.easy ? inline ? 28 : 30 : page.airy ? 26 : columned ? inline ? ranged ? 16 : 8 : 16 : page.largeText ? 13 : 17) * Theme.unit
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
     readonly property real taken: rows.measured ? Math.max(0, told.height - rows.height) : 0
     // Letters have some air above them already; what stands below them does not.
@@ -120,9 +118,7 @@ Item {
     // Whether it is the first card of a table, which the band with these words is joined to.
     readonly property bool topped: rows.table !== null && headed
 
-    // How high it is without that.
-    readonly property real least: Math.max(head + content.height + 2 * margin, page.solo ? page.cleared : 0)
-    height: least + stretched
+    height: head + content.height + 2 * margin
 
     TableHead {
         objectName: "table-head"
@@ -165,7 +161,7 @@ Item {
         id: content
         anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; verticalCenterOffset: box.head / 2 - box.raised; margins: box.bare ? 0 : box.page.inset }
         // The word that a rating alone is missed stands in that distance, and its points stay where they are.
-        spacing: box.page.solo && box.missed ? Math.max(20 * Theme.unit, box.usualSpacing - 12 * Theme.unit - box.page.widths.leading * Theme.small) : box.usualSpacing
+        spacing: box.page.solo && box.missed ? Math.max(20 * Theme.unit, box.usualSpacing - told.spacing - note.height) : box.usualSpacing
 
         Item {
             id: asked
@@ -196,7 +192,7 @@ Item {
                             : box.columned ? box.questions.asking : box.page.dense ? Theme.reading : box.page.easy ? Theme.size(36) : box.page.airy ? Theme.size(38) : Theme.body
                         bold: box.item.kind !== "page"
                     }
-                    lineHeight: box.item.kind === "page" ? 1.15 : box.page.ample ? 0.92 : box.rows.closeness
+                    lineHeight: box.item.kind === "page" ? 1.15 : box.page.ample || box.page.solo ? 0.92 : box.rows.closeness
                     horizontalAlignment: box.page.solo ? Text.AlignHCenter : Text.AlignLeft
                 }
                 // What a number may be, below the question where the number stands beside that.
@@ -210,6 +206,7 @@ Item {
                     color: Theme.faintInk
                 }
                 PlainText {
+                    id: note
                     width: parent.width
                     visible: box.missed && !box.crowned
                     text: box.refused ? box.words["form-refused"] : box.form.wrong.includes(box.item.id) ? box.item.wrong ?? box.words["form-missing"]
@@ -332,7 +329,7 @@ Item {
             flank: box.rows.flank
             table: box.rows.table
             crowned: box.crowned
-            lift: box.rows.own ? 0 : box.usualMargin + box.stretched / 2 + asked.middle - size / 2 + 8 * Theme.unit
+            lift: box.rows.own ? 0 : box.usualMargin + asked.middle - size / 2 + 8 * Theme.unit
             item: box.item.id
             label: box.item.text
             points: box.item.points

@@ -44,9 +44,11 @@ QtObject {
     readonly property bool easy: few && upright && !alone
     // Whether a few ratings have an upright page.
     readonly property bool rated: airy && !alone && rates
-    // Whether it has height for large distances between a question and its scale, even with two lines in each card.
-    readonly property bool ample: rated && places * (widths.leading * (2 * Theme.size(38) + Theme.size(30))
-        + (Theme.textSize > 1 ? 190 : 198) * Theme.unit) <= free
+    // For how many cards it has height with large distances between a question and its scale, even with two lines in each,
+    // and whether these are enough.
+    readonly property int fits: rated ? Math.floor(free / (widths.leading * (2 * Theme.size(38) + Theme.size(30))
+        + (Theme.textSize > 1 ? 190 : 198) * Theme.unit)) : 0
+    readonly property bool ample: rated && places <= fits
 
     // Whether it is one choice, or two plain questions: these are large, where they have room for that.
     readonly property bool chosen: alone && items[0].options !== undefined && !items[0].exempts
@@ -65,7 +67,7 @@ QtObject {
     // How far cards are from each other at least.
     readonly property real gap: (dense || tight ? 8 : 12) * Theme.unit
     // How far the content of a card is from its left and right edges, and what that leaves of its width.
-    readonly property real inset: solo || brief ? 40 * Theme.unit : (easy ? 1.5 : 1.2) * Theme.gap
+    readonly property real inset: solo && upright ? 28 * Theme.unit : solo || brief ? 40 * Theme.unit : (easy ? 1.5 : 1.2) * Theme.gap
     readonly property real inner: brief && alone ? column : column - 2 * inset
 
     function scales(item: var): bool {
@@ -77,7 +79,7 @@ QtObject {
     }
     // How many places there are for those, at least.
     function rows(): int {
-        return Math.max(1, form.fullest, seen().length)
+        return ample ? fits : Math.max(1, form.fullest, seen().length)
     }
     // The item that is seen before this one, or null.
     function before(at: int): var {

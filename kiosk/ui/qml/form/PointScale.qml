@@ -51,10 +51,10 @@ Item {
     // How high they are: much smaller ones that are given that height take it, and are easier to hit.
     readonly property bool evened: even && below && !alone && !pictured
     readonly property bool long: joined || (evened ? size < 0.85 * wish : full && !pictured && size < 0.7 * wish)
-    readonly property real tall: long ? wish : size
+    readonly property real tall: long ? (full && even ? 230 * Theme.unit : wish) : size
     // How much of that height they leave, above themselves and below.
     readonly property real inset: evened ? Math.max(0, (wish - tall) / 2) : 0
-    readonly property real filling: width / (points + (even ? full ? 0.09 : 0.113 : full ? 0.22 : 0.24) * (points - 1))
+    readonly property real filling: width / (points + (even ? full ? 0.17 : 0.113 : full ? 0.22 : 0.24) * (points - 1))
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real most: 250 * Theme.unit * Theme.textSize
     readonly property bool roomy: lowest.implicitWidth + highest.implicitWidth + 2 * Theme.gap + points * size + least <= width
@@ -88,7 +88,7 @@ Item {
         text: scale.leftEnd
         horizontalAlignment: scale.flank && !scale.spread ? Text.AlignRight : Text.AlignLeft
         lineHeight: scale.flank && !scale.spread ? 0.9 : 1
-        font.pixelSize: scale.flank?.end ?? (scale.own ? Theme.size(28) : scale.full || scale.large ? Theme.size(Theme.textSize > 1.15 ? 30 : scale.full ? 40 : 34) : scale.beside || scale.alone ? Theme.size(30) : Theme.small)
+        font.pixelSize: scale.flank?.end ?? (scale.own ? Theme.size(28) : scale.full ? Theme.size(Theme.textSize > 1.15 ? 38 : 48) : scale.large ? Theme.size(Theme.textSize > 1.15 ? 30 : 34) : scale.beside || scale.alone ? Theme.size(30) : Theme.small)
         wrapMode: Text.Wrap
         color: Theme.ink
     }
@@ -160,7 +160,7 @@ Item {
                         visible: !scale.pictured
                         readonly property real reach: Math.min(scale.size, scale.tall)
                         text: point.number
-                        font { pixelSize: Math.min(scale.full ? Theme.size(56) : Theme.heading, Math.max((scale.inset > 0 || scale.long || scale.full && scale.many ? 0.48 : 0.42) * reach, Math.min(Theme.body, 0.5 * reach))); bold: true }
+                        font { pixelSize: Math.min(scale.full ? Theme.size(56) : Theme.heading, Math.max((scale.full && scale.long ? 0.62 : scale.inset > 0 || scale.long || scale.full && scale.many ? 0.48 : 0.42) * reach, Math.min(Theme.body, 0.5 * reach))); bold: true }
                         color: point.on ? Theme.white : Theme.ink
                     }
                     Image {

@@ -20,6 +20,8 @@ QtObject {
     required property string exemption
 
     readonly property bool possible: !page.upright && !page.alone && !page.largeText
+    // How much of the page's height the rows of a table leave. Hidden ones count: what depends on it stays where it is.
+    readonly property real left: table === null ? 0 : page.cleared - table.head + table.gap - page.items.length * (table.height + 2 * table.margin + table.gap)
     // How the rows of such a table look, all measures of them; null if they are none.
     readonly property var table: !possible || !alike() ? null : tabled()
     // The same of flanked rows.

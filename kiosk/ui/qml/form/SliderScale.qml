@@ -60,7 +60,7 @@ Item {
         text: scale.leftEnd
         horizontalAlignment: scale.flank && !scale.spread ? Text.AlignRight : Text.AlignLeft
         lineHeight: scale.flank && !scale.spread ? 0.9 : 1
-        font.pixelSize: scale.flank?.end ?? Theme.size(scale.own ? 28 : Theme.textSize > 1.15 ? 30 : scale.full ? 40 : scale.large ? 34 : 30)
+        font.pixelSize: scale.flank?.end ?? Theme.size(scale.own ? 28 : Theme.textSize > 1.15 ? (scale.full ? 38 : 30) : scale.full ? 48 : scale.large ? 34 : 30)
         wrapMode: Text.Wrap
         color: Theme.ink
     }
