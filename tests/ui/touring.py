@@ -149,6 +149,8 @@ def look_behind(app: App, look: Look) -> None:
     assert app.experimenter.panel.is_open
     wait_until(app, lambda: find_item(app.window.contentItem(), "resume-1") is None)
     looked_at(app, look, "panel: today")
+    hand.click("panel-sessions")
+    looked_at(app, look, "panel: sessions")
     hand.click("names")
     hand.click("panel-next")
     hand.click("condition-tom")

@@ -39,7 +39,8 @@ console-session-stays = Stays paused after closing
 ## The first page
 
 console-today = Today
-console-next-page = Settings and deviations
+console-sessions-page = Sessions
+console-next-page = Settings
 console-today-visitors = Visitors today
 console-today-early = { $early } ended early
 console-today-completed = Completed today
@@ -68,7 +69,7 @@ console-test-sentence = Good morning. If you hear this sentence, the voice works
 console-supervisor = Supervisor
 console-supervisor-there = running
 console-supervisor-none = none
-console-supervisor-remedy = Use one: recollect run --supervise
+console-supervisor-remedy = Start the kiosk with one
 console-remote = From afar
 console-remote-there = the status is published
 console-remote-not = no connection: { $why }
@@ -87,7 +88,7 @@ console-avatar = Avatar
 console-voice = Voice
 console-voice-quiet = silent on purpose
 console-voice-changed = another voice pack than in earlier sessions
-console-voice-changed-remedy = See which: recollect verify
+console-voice-changed-remedy = See which ones
 console-disk = Disk
 console-disk-free = { $free } free
 console-disk-warn = only { $free } free
@@ -122,7 +123,7 @@ console-study = Study
 console-pin-line-name = PIN
 console-pin-set = is asked for
 console-pin-none = none
-console-pin-remedy = Set one: recollect study set-pin
+console-pin-remedy = Set one before you open
 console-screen = Screen
 
 ## Counts
@@ -217,7 +218,6 @@ console-break = A break: back in
 console-break-minutes = { $minutes } min
 console-break-end = End the break
 console-abort = End the session
-console-abort-then = To go on to the next visitor
 console-next = Next visitor
 console-resume = Go on with a session that was cut off
 console-resume-one = { $participant } · { $when } · { $stage }

@@ -39,7 +39,8 @@ console-session-stays = En pausa también después
 ## The first page
 
 console-today = Hoy
-console-next-page = Ajustes y desviaciones
+console-sessions-page = Sesiones
+console-next-page = Ajustes
 console-today-visitors = Visitantes hoy
 console-today-early = { $early } a medias
 console-today-completed = Completadas hoy
@@ -68,7 +69,7 @@ console-test-sentence = Buenos días. Si oyes esta frase, la voz funciona.
 console-supervisor = Supervisor
 console-supervisor-there = activo
 console-supervisor-none = no hay
-console-supervisor-remedy = Usa uno: recollect run --supervise
+console-supervisor-remedy = Inicia el quiosco con uno
 console-remote = A distancia
 console-remote-there = el estado se publica
 console-remote-not = sin conexión: { $why }
@@ -87,7 +88,7 @@ console-avatar = Avatar
 console-voice = Voz
 console-voice-quiet = en silencio a propósito
 console-voice-changed = otro paquete de voz que en sesiones anteriores
-console-voice-changed-remedy = Mira cuáles: recollect verify
+console-voice-changed-remedy = Mira cuáles
 console-disk = Disco
 console-disk-free = { $free } libres
 console-disk-warn = solo { $free } libres
@@ -122,7 +123,7 @@ console-study = Estudio
 console-pin-line-name = PIN
 console-pin-set = se pide
 console-pin-none = no hay
-console-pin-remedy = Crea uno: recollect study set-pin
+console-pin-remedy = Crea uno antes de abrir
 console-screen = Pantalla
 
 ## Counts
@@ -217,7 +218,6 @@ console-break = Un descanso: de vuelta en
 console-break-minutes = { $minutes } min
 console-break-end = Terminar la pausa
 console-abort = Terminar la sesión
-console-abort-then = Para la siguiente persona
 console-next = Siguiente persona
 console-resume = Reanudar una sesión cortada
 console-resume-one = { $participant } · { $when } · { $stage }

@@ -39,7 +39,8 @@ console-session-stays = In pausa anche dopo
 ## The first page
 
 console-today = Oggi
-console-next-page = Impostazioni e deviazioni
+console-sessions-page = Sedute
+console-next-page = Impostazioni
 console-today-visitors = Visitatori oggi
 console-today-early = { $early } finite prima
 console-today-completed = Completate oggi
@@ -68,7 +69,7 @@ console-test-sentence = Buongiorno. Se senti questa frase, la voce funziona.
 console-supervisor = Supervisore
 console-supervisor-there = attivo
 console-supervisor-none = non c’è
-console-supervisor-remedy = Usane uno: recollect run --supervise
+console-supervisor-remedy = Avvia il chiosco con uno
 console-remote = A distanza
 console-remote-there = lo stato viene pubblicato
 console-remote-not = nessuna connessione: { $why }
@@ -87,7 +88,7 @@ console-avatar = Avatar
 console-voice = Voce
 console-voice-quiet = in silenzio di proposito
 console-voice-changed = pacchetto vocale diverso da quello delle sessioni precedenti
-console-voice-changed-remedy = Vedi quali: recollect verify
+console-voice-changed-remedy = Vedi quali
 console-disk = Disco
 console-disk-free = { $free } liberi
 console-disk-warn = solo { $free } liberi
@@ -122,7 +123,7 @@ console-study = Studio
 console-pin-line-name = PIN
 console-pin-set = viene chiesto
 console-pin-none = non c’è
-console-pin-remedy = Impostane uno: recollect study set-pin
+console-pin-remedy = Impostane uno prima di aprire
 console-screen = Schermo
 
 ## Counts
@@ -217,7 +218,6 @@ console-break = Una pausa: di ritorno tra
 console-break-minutes = { $minutes } min
 console-break-end = Termina la pausa
 console-abort = Termina la seduta
-console-abort-then = Per la prossima persona
 console-next = Prossima persona
 console-resume = Riprendi una seduta interrotta
 console-resume-one = { $participant } · { $when } · { $stage }

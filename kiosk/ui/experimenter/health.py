@@ -31,6 +31,8 @@ class HealthLine:
     is_ok: bool = True
     remedy: str = ""
     """What the experimenter can do about it, where the message does not say so."""
+    command: str = ""
+    """What is to be typed for that, away from the kiosk."""
     action: str = ""
     """The action of the panel that does it, whose button then says so; empty if it is done elsewhere."""
     is_used: bool = True
@@ -110,19 +112,21 @@ def health_lines(state: HealthInputs, catalogue: Catalogue) -> tuple[HealthLine,
             translate("console-pin-set") if state.has_pin else "",
             translate("console-pin-none"),
             translate("console-pin-remedy"),
+            "recollect study set-pin",
         ),
         _line_of_what_is_needed(
             translate("console-supervisor"),
             translate("console-supervisor-there") if state.supervised else "",
             translate("console-supervisor-none"),
             translate("console-supervisor-remedy"),
+            "recollect run --supervise",
         ),
     )
 
 
-def _line_of_what_is_needed(name: str, there: str, missing: str, remedy: str) -> HealthLine:
+def _line_of_what_is_needed(name: str, there: str, missing: str, remedy: str, command: str) -> HealthLine:
     """Say what a part is like that is ``there``, or that it is missing and what to do."""
-    return HealthLine(name, there) if there else HealthLine(name, missing, is_ok=False, remedy=remedy)
+    return HealthLine(name, there) if there else HealthLine(name, missing, is_ok=False, remedy=remedy, command=command)
 
 
 def booth_lines(state: HealthInputs, study: StudyConfig, catalogue: Catalogue) -> tuple[HealthLine, ...]:
@@ -176,7 +180,8 @@ def _voice(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
         )
     if state.voice.is_ok and state.pack_changed:
         remedy = catalogue.text("console-voice-changed-remedy")
-        return HealthLine(name, catalogue.text("console-voice-changed"), is_ok=False, remedy=remedy)
+        changed = catalogue.text("console-voice-changed")
+        return HealthLine(name, changed, is_ok=False, remedy=remedy, command="recollect verify")
     return HealthLine(name, state.voice.message, state.voice.is_ok, is_used=state.voice.is_used)
 
 

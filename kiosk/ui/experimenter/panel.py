@@ -187,8 +187,8 @@ class Panel:
         to_do = [line for line in (*found, *more) if not line.is_ok or line.is_due]
         self._screen.show_health(
             {
-                # What a button answers stands last, and of that what is well but due.
-                "matters": [asdict(line) for line in sorted(to_do, key=lambda line: (bool(line.action), line.is_due))],
+                # What a button answers stands first, and of that what is well but due last.
+                "matters": [asdict(line) for line in sorted(to_do, key=lambda line: (not line.action, line.is_due))],
                 "lines": [asdict(line) for line in found if line not in to_do],
                 "more": [asdict(line) for line in more],
             }
@@ -294,7 +294,9 @@ def copy_words(upkeep: MaintenanceScheduler, catalogue: Catalogue) -> str:
 WORDS = (
     "console-title",
     "console-today",
+    "console-sessions-page",
     "console-next-page",
+    "console-all-well",
     "console-booth",
     "console-names-show",
     "console-names-hide",
@@ -341,7 +343,6 @@ WORDS = (
     "console-break",
     "console-break-end",
     "console-abort",
-    "console-abort-then",
     "console-next",
     "console-resume",
     "console-backup",

@@ -54,8 +54,13 @@ def today_rows(
     target = sum(cell.quota for cell in counts.cells.values())
     name, lasted_ms = stage
     numbers = (
-        ("visitors", str(day.begun), translate("console-today-early", early=day.ended_early)),
-        ("completed", str(day.completed), translate("console-today-hour", done=day.last_hour)),
+        # Without any, there is nothing more to tell.
+        (
+            "visitors",
+            str(day.begun),
+            translate("console-today-early", early=day.ended_early) if day.ended_early else "",
+        ),
+        ("completed", str(day.completed), translate("console-today-hour", done=day.last_hour) if day.last_hour else ""),
         (
             "target",
             f"{done} / {target}" if target else str(done or "-"),

@@ -275,6 +275,7 @@ def test_counts_stand_against_the_quotas_and_the_last_sessions_tell_how_they_end
     assert sorted(cell["done"] for cell in records(assigner)["cells"]) == ["0 / 2", "1 / 2"]
     assert sum(int(cell["counts"][0] or 0) for cell in records(assigner)["cells"]) == 1
     assert records(assigner)["deviations"][0]["words"] == "session stopped in: game"
+    assigner.click("panel-sessions")
     assert shows(assigner.app.window.contentItem(), "of quota")
 
 
@@ -285,6 +286,7 @@ def test_without_a_list_the_panel_counts_sessions_begun_and_has_no_quota(make_as
     assigner.wait_until(lambda: bool(records(assigner)["cells"]))
     (cell,) = records(assigner)["cells"]
     assert (records(assigner)["listed"], cell["listed"], cell["done"]) == (False, False, "1")
+    assigner.click("panel-sessions")
     window = assigner.app.window.contentItem()
     assert [words for words in ("begun", "of quota") if shows(window, words)] == ["begun"]
 
@@ -329,7 +331,7 @@ def test_the_notice_has_all_that_is_to_be_done_and_the_checks_only_what_is_well(
     assert shows(window, "Disk")
     tab_to(assigner, "action-backup")
     assigner.app.experimenter.upkeep.free_space = FreeSpace(100)
-    assigner.wait_until(lambda: matters(assigner) == ["Disk", "Database"])
+    assigner.wait_until(lambda: matters(assigner) == ["Database", "Disk"])
     # The keyboard stays on the button in the notice, which stands nowhere else.
     assert held(assigner) == "action-backup"
     (notice,) = of_kind(assigner.app.window.contentItem(), "PanelNotice")
@@ -527,6 +529,7 @@ def test_conditions_are_named_only_on_request_and_by_letters_again_at_the_next_o
     assigner.open_panel()
     assigner.wait_until(lambda: bool(records(assigner)["cells"]))
     assert [cell["name"] for cell in records(assigner)["cells"]] == ["A", "B"]
+    assigner.click("panel-sessions")
     assigner.click("names")
     assert [cell["name"] for cell in records(assigner)["cells"]] == ["ToM", "no ToM"]
     assert records(assigner)["sessions"][0]["condition"] == "hidden"

@@ -102,7 +102,7 @@ def test_every_deviation_has_a_line_in_every_language(language: str) -> None:
     ],
 )
 def test_what_is_not_well_is_told_and_named_in_one_line(state: HealthInputs, name: str, words: str) -> None:
-    assert replace(told(state)[name], remedy="", action="") == HealthLine(name, words, is_ok=False)
+    assert replace(told(state)[name], remedy="", command="", action="") == HealthLine(name, words, is_ok=False)
     assert [line.name for line in every_line(state, CATALOGUES["en"]) if not line.is_ok] == [name]
 
 
@@ -116,20 +116,22 @@ def test_the_last_copy_is_told_in_the_size_that_matters(minutes: int, words: str
 
 
 @pytest.mark.parametrize(
-    ("state", "name", "remedy"),
+    ("state", "name", "remedy", "command"),
     [
-        (replace(WELL, has_pin=False), "PIN", "Set one: recollect study set-pin"),
-        (replace(WELL, supervised=False), "Supervisor", "Use one: recollect run --supervise"),
-        (replace(WELL, muted=True), "Voice", "Turn the sound on"),
-        (replace(WELL, pack_changed=True), "Voice", "See which: recollect verify"),
-        (replace(WELL, free_space=FreeSpace(300)), "Disk", "Make room this evening"),
-        (replace(WELL, free_space=FreeSpace(3)), "Disk", "Make room now"),
-        (replace(WELL, clocks=Clocks(NOW, NOW, 0, NOW + 2 * HOUR)), "Clock", "Set the clock"),
+        (replace(WELL, has_pin=False), "PIN", "Set one before you open", "recollect study set-pin"),
+        (replace(WELL, supervised=False), "Supervisor", "Start the kiosk with one", "recollect run --supervise"),
+        (replace(WELL, muted=True), "Voice", "Turn the sound on", ""),
+        (replace(WELL, pack_changed=True), "Voice", "See which ones", "recollect verify"),
+        (replace(WELL, free_space=FreeSpace(300)), "Disk", "Make room this evening", ""),
+        (replace(WELL, free_space=FreeSpace(3)), "Disk", "Make room now", ""),
+        (replace(WELL, clocks=Clocks(NOW, NOW, 0, NOW + 2 * HOUR)), "Clock", "Set the clock", ""),
     ],
 )
-def test_what_is_missing_comes_with_what_to_do_about_it(state: HealthInputs, name: str, remedy: str) -> None:
-    assert told(state)[name].remedy == remedy
-    assert not told(WELL)[name].remedy
+def test_what_is_missing_comes_with_what_to_do_about_it(
+    state: HealthInputs, name: str, remedy: str, command: str
+) -> None:
+    assert (told(state)[name].remedy, told(state)[name].command) == (remedy, command)
+    assert not told(WELL)[name].remedy + told(WELL)[name].command
 
 
 def test_the_pin_is_asked_for_before_the_supervisor_that_needs_it() -> None:

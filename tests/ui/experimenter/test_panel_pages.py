@@ -1,6 +1,6 @@
-"""The panel's first page on a busy day: no word is broken, no number wraps, and rows stand equally far apart.
+"""The panel's pages on a busy day: no word is broken, no number wraps, and rows stand equally far apart.
 
-Both pages have large letters, and need no scrolling during a session.
+All have large letters, and need no scrolling during a session. The first tells the state largest.
 """
 
 from __future__ import annotations
@@ -32,8 +32,6 @@ from tests.ui.looking import items, lies_in, of_kind, texts
 WIDE, UPRIGHT = (1920, 1080), (1080, 1920)
 ROUNDED = 3
 """So many pixels are lost where lengths are rounded."""
-NEAR = 12
-"""In pixels: letters of two sizes on one line."""
 LAYOUTS = [WIDE, UPRIGHT, (1280, 800), (1366, 768)]
 
 
@@ -54,8 +52,10 @@ def window(qapp: QGuiApplication) -> Iterator[Window]:  # noqa: ARG001 - Qt is t
         yield opened
 
 
-def show(window: Window, language: str, size: tuple[int, int], text_size: float = 1.0, **parts: Row) -> None:
-    """Show the panel on a busy day, with other ``parts`` where they are given."""
+def show(
+    window: Window, language: str, size: tuple[int, int], text_size: float = 1.0, page: int = 0, **parts: Row
+) -> None:
+    """Show a page of the panel on a busy day, with other ``parts`` where they are given."""
     panel = window.screens.experimenter.parts[2]
     panel.open(is_open=False)
     window.shown.setProperty("textSize", text_size)
@@ -68,20 +68,35 @@ def show(window: Window, language: str, size: tuple[int, int], text_size: float 
     panel.show_records(shown["records"])
     panel.show_choices(shown["choices"])
     panel.open(is_open=True)
+    turn_to(window, page)
     QCoreApplication.processEvents()
     lay_out(window.shown)
     assert (window.shown.contentItem().width(), window.shown.contentItem().height()) == size
 
 
+def turn_to(window: Window, page: int) -> None:
+    """Show this page of the panel, from 0."""
+    view = find_item(window.shown.contentItem(), "panel")
+    assert view is not None
+    view.setProperty("page", page)
+
+
 def busy_day(language: str) -> dict[str, Any]:
     """Return what the panel shows: two warnings, four checks, a list with a target, and a session under way."""
     told = CATALOGUES[language].text
-    pin = HealthLine("PIN", told("console-pin-none"), is_ok=False, remedy=told("console-pin-remedy"))
+    pin = HealthLine(
+        "PIN",
+        told("console-pin-none"),
+        is_ok=False,
+        remedy=told("console-pin-remedy"),
+        command="recollect study set-pin",
+    )
     supervisor = HealthLine(
         told("console-supervisor"),
         told("console-supervisor-none"),
         is_ok=False,
         remedy=told("console-supervisor-remedy"),
+        command="recollect run --supervise",
     )
     checks = (
         HealthLine(told("console-robot"), told("console-robot-absent"), is_used=False),
@@ -156,7 +171,7 @@ def is_broken(text: QQuickItem) -> bool:
 @pytest.mark.parametrize("text_size", [1.0, 1.15, 1.3])
 @pytest.mark.parametrize("size", LAYOUTS)
 def test_no_word_of_a_table_is_broken(window: Window, language: str, text_size: float, size: tuple[int, int]) -> None:
-    show(window, language, size, text_size)
+    show(window, language, size, text_size, page=1)
     cells = [text for text in texts(window.shown.contentItem()) if lies_in(text, "PanelCell")]
     assert len(cells) >= 6 + 5 + 2 * 6 + 2 * 5 - 1
     assert [words_of(cell) for cell in cells if is_broken(cell)] == []
@@ -178,7 +193,7 @@ def test_columns_stand_equally_far_apart_and_fill_the_card(window: Window) -> No
         "cells": [cell | {"listed": False, "done": "1"} for cell in unlisted["cells"]],
     }
     unlisted["sessions"] = unlisted["sessions"][:1]
-    show(window, "en", UPRIGHT, records=unlisted)
+    show(window, "en", UPRIGHT, page=1, records=unlisted)
     columns: dict[int, float] = {}
     for cell in of_kind(window.shown.contentItem(), "PanelCell"):
         start = round(cell.mapToScene(QPointF()).x())
@@ -194,34 +209,6 @@ def test_columns_stand_equally_far_apart_and_fill_the_card(window: Window) -> No
 
 
 @pytest.mark.parametrize("size", [WIDE, UPRIGHT])
-def test_checks_stand_as_close_as_the_rows_of_the_tables(window: Window, size: tuple[int, int]) -> None:
-    show(window, "en", size)
-    lines = of_kind(window.shown.contentItem(), "PanelLine")
-    levels = sorted({round(line.mapToScene(QPointF()).y()) for line in lines})
-    (counts,) = of_kind(window.shown.contentItem(), "PanelCounts")
-    apart = max(counts.property("apart"), 10)
-    assert len(levels) > 1
-    assert [after - before - lines[0].height() for before, after in pairwise(levels)] == pytest.approx(
-        [apart] * (len(levels) - 1), abs=ROUNDED
-    )
-
-
-def test_few_checks_stand_beside_the_counts_and_the_sessions_have_the_whole_width_below(window: Window) -> None:
-    show(window, "en", WIDE)
-    (checks,), (counts,), (sessions,) = (
-        of_kind(window.shown.contentItem(), f"Panel{name}") for name in ("Health", "Counts", "Sessions")
-    )
-    assert checks.height() == counts.height()
-    assert sessions.mapToScene(QPointF()).x() == checks.mapToScene(QPointF()).x()
-    assert sessions.width() > checks.width() + counts.width()
-    health = busy_day("en")["health"]
-    show(window, "en", WIDE, health=health | {"lines": health["lines"] * 2})
-    (counts,), (sessions,) = (of_kind(window.shown.contentItem(), f"Panel{name}") for name in ("Counts", "Sessions"))
-    assert sessions.mapToScene(QPointF()).x() == counts.mapToScene(QPointF()).x()
-    assert sessions.width() == counts.width()
-
-
-@pytest.mark.parametrize("size", [WIDE, UPRIGHT])
 def test_the_panel_stays_as_it_is_while_the_visitors_language_is_written_from_right_to_left(
     window: Window, size: tuple[int, int]
 ) -> None:
@@ -233,19 +220,6 @@ def test_the_panel_stays_as_it_is_while_the_visitors_language_is_written_from_ri
         (panel,) = of_kind(window.shown.contentItem(), "PanelView")
         places.append([(each.mapToScene(QPointF()), each.width()) for each in items(panel)])
     assert places[0] == places[1]
-
-
-def test_what_the_session_does_stands_beside_its_stage_where_it_has_the_whole_card(window: Window) -> None:
-    tiles = busy_day("en")["today"]["tiles"]
-    levels = []
-    for shown in (tiles, tiles[:2]):
-        show(window, "en", UPRIGHT, today={"clock": "09:52", "tiles": shown})
-        stage = find_item(window.shown.contentItem(), "today-stage")
-        assert stage is not None
-        told = {words_of(text): text.mapToScene(QPointF()).y() for text in texts(stage)}
-        levels.append(told["Paused while this is open"] - told["for 3 min"])
-    # In one line where the numbers are below, and in two where one of them stands beside it.
-    assert abs(levels[0]) < NEAR < levels[1]
 
 
 def test_the_way_out_is_outlined_and_its_ring_lies_on_its_edge(window: Window) -> None:
@@ -280,14 +254,14 @@ def test_names_of_pages_are_large_and_clear_of_the_clock(
 ) -> None:
     show(window, language, size, text_size)
     root = window.shown.contentItem()
-    tabs = [find_item(root, name) for name in ("panel-today", "panel-next")]
+    tabs = [find_item(root, name) for name in ("panel-today", "panel-sessions", "panel-next")]
     clock, title = find_item(root, "today-clock"), CATALOGUES[language].text("console-title")
     assert clock is not None
     for tab in tabs:
         assert tab is not None
         assert tab.mapToScene(QPointF(tab.width(), 0)).x() < clock.mapToScene(QPointF()).x()
         if size[0] > size[1] and text_size == 1:
-            assert tab.property("font").pixelSize() == pytest.approx(34 * size[0] / 1920, abs=1)
+            assert tab.property("font").pixelSize() >= int(34 * size[0] / 1920)
             assert [text for text in texts(root) if words_of(text) == title and text.isVisible()]
 
 
@@ -296,73 +270,12 @@ def test_a_single_row_is_not_spread_over_a_broad_card(window: Window) -> None:
     for many in (1, 3):
         calm, busy = calm_day("en"), busy_day("en")
         sessions = busy["records"]["sessions"][:1] * many
-        show(window, "en", WIDE, **calm | {"records": calm["records"] | {"sessions": sessions}})
+        show(window, "en", WIDE, page=1, **calm | {"records": calm["records"] | {"sessions": sessions}})
         (table,) = of_kind(window.shown.contentItem(), "PanelSessions")
         cells = [item for item in of_kind(table, "PanelCell") if item.isVisible()]
         widths.append(max(cell.mapToItem(table, QPointF()).x() + cell.property("implicitWidth") for cell in cells))
         assert widths[0] <= table.property("inset") + 1000 + ROUNDED
     assert widths[1] > widths[0] + 100
-
-
-@pytest.mark.parametrize("language", sorted(CATALOGUES))
-@pytest.mark.parametrize("size", LAYOUTS)
-def test_letters_are_large_where_the_page_has_the_room(window: Window, language: str, size: tuple[int, int]) -> None:
-    show(window, language, size, **calm_day(language))
-    (today,) = of_kind(window.shown.contentItem(), "PanelToday")
-    unit = min(size) / 1080 if size in (WIDE, UPRIGHT) else size[0] / 1920
-    drawn = {text.property("font").pixelSize() for text in texts(today) if lies_in(text, "PanelCell")}
-    assert min(drawn) >= int(29 * unit)
-    (stage,) = [text for text in texts(today) if words_of(text) == CATALOGUES[language].text("console-stage-game")][:1]
-    assert stage.property("font").pixelSize() >= int(60 * unit)
-    assert today.height() <= today.property("seen")
-
-
-@pytest.mark.parametrize(("many", "size", "language"), in_turn([1, 2, 3, 4, 6], LAYOUTS))
-def test_larger_letters_never_make_the_page_scroll(
-    window: Window, language: str, size: tuple[int, int], many: int
-) -> None:
-    calm, busy = calm_day(language), busy_day(language)
-    sessions = [busy["records"]["sessions"][0], *[busy["records"]["sessions"][1]] * (many - 1)]
-    for parts in (calm, busy, calm | {"health": busy["health"]}, busy | {"health": calm["health"]}):
-        show(window, language, size, **parts | {"records": parts["records"] | {"sessions": sessions}})
-        (today,) = of_kind(window.shown.contentItem(), "PanelToday")
-        if today.property("size") > today.property("usual"):
-            assert today.height() <= today.property("seen")
-
-
-@pytest.mark.parametrize(("text_size", "size", "language"), in_turn([1.0, 1.15], LAYOUTS))
-def test_warnings_in_two_columns_have_one_line_each(
-    window: Window, language: str, text_size: float, size: tuple[int, int]
-) -> None:
-    calm, matters = calm_day(language), busy_day(language)["health"]["matters"]
-    for shown in (matters[:1], matters[1:], matters):
-        show(window, language, size, text_size, **calm | {"health": calm["health"] | {"matters": shown}})
-        (notice,) = of_kind(window.shown.contentItem(), "PanelNotice")
-        told = [text for text in texts(notice) if text.isVisible()]
-        assert len(told) == 2 * len(shown)
-        if notice.property("beside"):
-            assert {text.property("lineCount") for text in told} == {1}
-
-
-@pytest.mark.parametrize(("listed", "size", "language"), in_turn([False, True], [*LAYOUTS, (800, 1280)]))
-def test_a_session_with_three_matters_needs_no_scrolling(
-    window: Window, language: str, size: tuple[int, int], *, listed: bool
-) -> None:
-    calm, busy, told = calm_day(language), busy_day(language), CATALOGUES[language].text
-    copy = HealthLine(
-        told("console-database"),
-        told("console-backup-none"),
-        remedy=told("console-backup"),
-        action="backup",
-        is_due=True,
-    )
-    health = busy["health"] | {"matters": [*busy["health"]["matters"], asdict(copy)]}
-    day = busy if listed else calm
-    show(window, language, size, **day | {"health": health, "choices": busy["choices"]})
-    (today,) = of_kind(window.shown.contentItem(), "PanelToday")
-    assert today.height() <= today.property("seen")
-    (button,) = [item for item in items(today) if item.objectName() == "action-backup"]
-    assert lies_in(button, "PanelNotice" if size[0] > size[1] else "PanelActions")
 
 
 @pytest.mark.parametrize("language", sorted(CATALOGUES))
@@ -383,72 +296,8 @@ def level(item: QQuickItem) -> float:
     return item.mapToScene(QPointF()).y()
 
 
-@pytest.mark.parametrize("language", sorted(CATALOGUES))
-@pytest.mark.parametrize("size", LAYOUTS)
-def test_each_matter_has_one_line_and_all_lines_stand_equally_far_apart(
-    window: Window, language: str, size: tuple[int, int]
-) -> None:
-    told, health = CATALOGUES[language].text, busy_day(language)["health"]
-    copy = HealthLine(told("console-database"), told("console-backup-none"), remedy=told("console-backup"))
-    matters = [*health["matters"], asdict(copy) | {"action": "backup"}]
-    show(window, language, size, **calm_day(language) | {"health": health | {"matters": matters}})
-    (notice,) = of_kind(window.shown.contentItem(), "PanelNotice")
-    assert notice.property("beside")
-    said = {f"{matter['name']}: {matter['message']}" for matter in matters}
-    lines = [text for text in texts(notice) if words_of(text) in said]
-    assert [text.property("lineCount") for text in lines] == [1, 1, 1]
-    middles = sorted(level(text) + text.height() / 2 for text in lines)
-    steps = [after - before for before, after in pairwise(middles)]
-    assert steps[0] == pytest.approx(steps[1], abs=ROUNDED)
-
-
-@pytest.mark.parametrize("size", LAYOUTS)
-def test_checks_counts_and_sessions_are_parts_of_one_sheet(window: Window, size: tuple[int, int]) -> None:
-    show(window, "en", size)
-    sheet = find_item(window.shown.contentItem(), "today-sheet")
-    assert sheet is not None
-    around = sheet.mapRectToScene(sheet.boundingRect())
-    for name in ("Health", "Counts", "Sessions"):
-        (part,) = of_kind(window.shown.contentItem(), f"Panel{name}")
-        assert not part.property("framed")
-        assert around.adjusted(-1, -1, 1, 1).contains(part.mapRectToScene(part.boundingRect()))
-
-
-@pytest.mark.parametrize("language", sorted(CATALOGUES))
-@pytest.mark.parametrize("under_way", [True, False])
-@pytest.mark.parametrize("matters", [0, 2])
-def test_no_action_of_an_upright_page_has_a_row_alone(
-    window: Window, language: str, matters: int, *, under_way: bool
-) -> None:
-    busy = busy_day(language)
-    health = busy["health"] | {"matters": busy["health"]["matters"][:matters]}
-    show(window, language, UPRIGHT, health=health, choices=busy["choices"] | {"underWay": under_way})
-    (actions,) = of_kind(window.shown.contentItem(), "PanelActions")
-    names = ("pause", "again", "backup", "mute", "end") if under_way else ("backup", "mute")
-    shown = [item for item in items(actions) if item.isVisible()]
-    found = [item for item in shown if item.objectName() in {"test-voice", *(f"action-{name}" for name in names)}]
-    assert len(found) == (5 if under_way else 3)
-    assert {item.width() for item in found} == {actions.property("half")}
-    # The break fills the sixth place.
-    assert len({(round(level(item)), round(item.mapToScene(QPointF()).x())) for item in found}) == len(found)
-    assert len({round(level(item)) for item in found}) == (3 if under_way else 2)
-
-
-def test_the_notice_of_an_upright_page_stands_below_the_actions_unless_an_alarm_holds(window: Window) -> None:
-    panel = window.screens.experimenter.parts[2]
-    for size, holds in ((UPRIGHT, False), (UPRIGHT, True), (UPRIGHT, False), (WIDE, False)):
-        panel.show_alarms([{"when": "09:40", "words": "The voice fails", "holds": holds}])
-        show(window, "en", size)
-        (notice,), (actions,) = (of_kind(window.shown.contentItem(), f"Panel{name}") for name in ("Notice", "Actions"))
-        if size == WIDE:
-            assert notice.mapToScene(QPointF()).x() < actions.mapToScene(QPointF()).x()
-        else:
-            assert (level(notice) < level(actions)) is holds
-    panel.show_alarms([])
-
-
-def second_page(language: str, *, robot: bool, deviations: int) -> dict[str, Any]:
-    """Return what the second page shows of a study with two conditions and three languages."""
+def third_page(language: str, *, robot: bool, deviations: int) -> dict[str, Any]:
+    """Return what the last two pages show of a study with two conditions and three languages."""
     busy, told = busy_day(language), CATALOGUES[language].text
 
     def labelled(*labels: str) -> list[dict[str, str]]:
@@ -483,22 +332,179 @@ def second_page(language: str, *, robot: bool, deviations: int) -> dict[str, Any
     }
 
 
+COPY_MISSING = "console-backup-none"
+
+
+def with_the_copy(language: str) -> dict[str, Any]:
+    """Return the health of a busy day on which a copy is to be made, too."""
+    told, health = CATALOGUES[language].text, busy_day(language)["health"]
+    name, remedy = told("console-database"), told("console-backup")
+    copy = HealthLine(name, told(COPY_MISSING), remedy=remedy, action="backup", is_due=True)
+    return dict(health | {"matters": [asdict(copy), *health["matters"]]})
+
+
+def letters_of(text: QQuickItem) -> int:
+    """Return how large a text is written, in pixels."""
+    font = text.property("font")
+    assert isinstance(font, QFont)
+    return font.pixelSize()
+
+
+def unit_of(size: tuple[int, int]) -> float:
+    """Return how many pixels of a window are one of a screen of 1080 lines."""
+    return min(min(size) / 1080, max(size) / 1920)
+
+
+@pytest.mark.parametrize(("listed", "size", "language"), in_turn([False, True], LAYOUTS))
+def test_the_stage_is_the_largest_and_no_word_of_the_first_page_is_small(
+    window: Window, language: str, size: tuple[int, int], *, listed: bool
+) -> None:
+    day = busy_day(language) if listed else calm_day(language)
+    show(window, language, size, **day | {"health": with_the_copy(language), "choices": busy_day(language)["choices"]})
+    (today,) = of_kind(window.shown.contentItem(), "PanelToday")
+    stage, *others = sorted(texts(today), key=letters_of, reverse=True)
+    assert words_of(stage) == CATALOGUES[language].text("console-stage-game")
+    assert letters_of(stage) >= int(100 * unit_of(size))
+    assert letters_of(others[0]) < 0.75 * letters_of(stage)
+    assert letters_of(others[-1]) >= int(27 * unit_of(size))
+
+
+@pytest.mark.parametrize("size", LAYOUTS)
+def test_the_state_comes_first_then_what_is_not_well_then_the_actions(window: Window, size: tuple[int, int]) -> None:
+    show(window, "en", size, health=with_the_copy("en"))
+    now, notice, actions, checks = (
+        of_kind(window.shown.contentItem(), f"Panel{name}")[0] for name in ("Now", "Notice", "Actions", "Health")
+    )
+    assert level(now) < level(notice) < level(checks)
+    assert level(now) + now.height() < level(actions)
+    if size[0] < size[1]:
+        assert level(notice) < level(actions) < level(checks)
+    else:
+        assert level(notice) == level(actions)
+        assert notice.mapToScene(QPointF()).x() < actions.mapToScene(QPointF()).x()
+
+
+@pytest.mark.parametrize(("size", "language"), in_turn(LAYOUTS))
+def test_the_button_that_answers_a_matter_is_as_high_as_the_actions_and_stands_there_alone(
+    window: Window, language: str, size: tuple[int, int]
+) -> None:
+    show(window, language, size, health=with_the_copy(language))
+    found = [item for item in items(window.shown.contentItem()) if item.objectName() == "action-backup"]
+    assert [lies_in(item, "PanelNotice") for item in found] == [True]
+    assert found[0].height() >= 76 * unit_of(size)
+    (notice,) = of_kind(window.shown.contentItem(), "PanelNotice")
+    (message,) = [text for text in texts(notice) if CATALOGUES[language].text(COPY_MISSING) in words_of(text)]
+    assert message.property("lineCount") == 1
+    middles = [item.mapToScene(QPointF(0, item.height() / 2)).y() for item in (message, found[0])]
+    assert middles[0] == pytest.approx(middles[1], abs=ROUNDED)
+
+
+def test_what_is_to_be_typed_elsewhere_is_quieter_than_what_to_do(window: Window) -> None:
+    show(window, "en", WIDE)
+    (notice,) = of_kind(window.shown.contentItem(), "PanelNotice")
+    shown = {words_of(text): text for text in texts(notice)}
+    remedy, command = shown["Set one before you open"], shown["recollect study set-pin"]
+    assert command.property("color") != remedy.property("color")
+    assert level(command) == level(remedy)
+    assert command.mapToScene(QPointF()).x() > remedy.mapToScene(QPointF(remedy.width(), 0)).x()
+
+
+@pytest.mark.parametrize(("matters", "listed", "size", "language"), in_turn([0, 2, 3], [False, True], LAYOUTS))
+def test_the_first_page_needs_no_scrolling_while_a_visitor_plays(
+    window: Window, language: str, size: tuple[int, int], matters: int, *, listed: bool
+) -> None:
+    day = busy_day(language) if listed else calm_day(language)
+    health = with_the_copy(language)
+    shown = health | {"matters": health["matters"][:matters]}
+    show(window, language, size, **day | {"health": shown, "choices": busy_day(language)["choices"]})
+    (today,) = of_kind(window.shown.contentItem(), "PanelToday")
+    assert today.height() <= today.property("seen")
+
+
+@pytest.mark.parametrize(("copies", "under_way", "language"), in_turn([False, True], [False, True]))
+def test_no_action_of_an_upright_page_has_a_row_alone(
+    window: Window, language: str, *, copies: bool, under_way: bool
+) -> None:
+    busy = busy_day(language)
+    health = with_the_copy(language) if copies else busy["health"]
+    show(window, language, UPRIGHT, health=health, choices=busy["choices"] | {"underWay": under_way})
+    (actions,) = of_kind(window.shown.contentItem(), "PanelActions")
+    names = ("action-pause", "action-again", "action-backup", "action-mute", "test-voice")
+    found = [item for item in items(actions) if item.objectName() in names]
+    assert len(found) == (3 if under_way else 2) + (not copies)
+    assert len({item.width() for item in found}) == 1
+    rows = [round(level(item)) for item in found]
+    assert min(rows.count(row) for row in rows) >= 2
+    # Its words are not broken, and level with those beside them.
+    assert [words_of(text) for item in found for text in texts(item) if is_broken(text)] == []
+    middles = [level(text) + text.height() / 2 for item in found for text in texts(item)]
+    if len(set(rows)) == 1:
+        assert max(middles) - min(middles) <= ROUNDED
+
+
+@pytest.mark.parametrize(("size", "language"), in_turn(LAYOUTS))
+def test_checks_stand_in_two_columns_equally_far_apart(window: Window, language: str, size: tuple[int, int]) -> None:
+    lines = busy_day(language)["health"]["lines"] * 2
+    show(window, language, size, health={"matters": [], "lines": lines[:6], "more": []})
+    (checks,) = of_kind(window.shown.contentItem(), "PanelHealth")
+    # The last one stands before the heading.
+    marks = of_kind(checks, "PanelMark")[:6]
+    assert len({round(mark.mapToScene(QPointF()).x()) for mark in marks}) == 2
+    rows = sorted({round(level(mark)) for mark in marks})
+    steps = [after - before for before, after in pairwise(rows)]
+    assert steps[0] == pytest.approx(steps[1], abs=ROUNDED)
+
+
+@pytest.mark.parametrize("holds", [False, True])
+def test_all_is_well_is_said_while_there_is_no_notice_and_no_alarm_holds(window: Window, *, holds: bool) -> None:
+    panel = window.screens.experimenter.parts[2]
+    panel.show_alarms([{"when": "09:40", "words": "The voice fails", "holds": holds}])
+    for health in (busy_day("en")["health"], calm_day("en")["health"]):
+        show(window, "en", WIDE, health=health)
+        said = [words_of(text) for text in texts(window.shown.contentItem())]
+        assert ("All is well" in said) is (not health["matters"] and not holds)
+    panel.show_alarms([])
+
+
+@pytest.mark.parametrize("page", [1, 2])
+def test_what_is_not_well_marks_the_first_page_on_the_others(window: Window, page: int) -> None:
+    for health, marked in ((busy_day("en")["health"], True), (calm_day("en")["health"], False)):
+        show(window, "en", WIDE, page=page, health=health)
+        tab = find_item(window.shown.contentItem(), "panel-today")
+        assert tab is not None
+        assert bool(of_kind(tab, "PanelMark")) is marked
+        turn_to(window, 0)
+        assert not of_kind(tab, "PanelMark")
+
+
 @pytest.mark.parametrize(
-    ("deviations", "robot", "size", "language"), in_turn([2, 5], [False, True], [*LAYOUTS, (800, 1280)])
+    ("many", "listed", "size", "language"), in_turn([(1, 0), (1, 5), (4, 2), (4, 5)], [False, True], LAYOUTS)
 )
-def test_the_second_page_has_large_letters_and_needs_no_scrolling(
-    window: Window, language: str, size: tuple[int, int], *, robot: bool, deviations: int
+def test_the_page_of_sessions_needs_no_scrolling(
+    window: Window, language: str, size: tuple[int, int], many: tuple[int, int], *, listed: bool
+) -> None:
+    sessions, deviations = many
+    day = busy_day(language) if listed else calm_day(language)
+    noted = third_page(language, robot=False, deviations=deviations)["records"]
+    first, second = busy_day(language)["records"]["sessions"]
+    records = day["records"] | {
+        "sessions": [first, *[second] * (sessions - 1)],
+        "deviations": noted["deviations"],
+        "more": noted["more"],
+    }
+    show(window, language, size, page=1, **day | {"records": records})
+    (page,) = of_kind(window.shown.contentItem(), "PanelRecords")
+    assert page.height() <= page.property("seen")
+    assert min(map(letters_of, texts(page))) >= int((21 if size[0] > size[1] else 26) * unit_of(size))
+
+
+@pytest.mark.parametrize(("robot", "size", "language"), in_turn([False, True], [*LAYOUTS, (800, 1280)]))
+def test_the_page_of_settings_has_large_letters_and_needs_no_scrolling(
+    window: Window, language: str, size: tuple[int, int], *, robot: bool
 ) -> None:
     told = CATALOGUES[language]
     window.screens.experimenter.parts[2].list_shortcuts(shortcut_rows(shortcuts(Settings().shortcuts), told))
-    show(window, language, size, **second_page(language, robot=robot, deviations=deviations))
-    view = find_item(window.shown.contentItem(), "panel")
-    assert view is not None
-    view.setProperty("onToday", 0)
-    lay_out(window.shown)
+    show(window, language, size, page=2, **third_page(language, robot=robot, deviations=0))
     (page,) = of_kind(window.shown.contentItem(), "PanelNext")
     assert page.height() <= page.property("seen")
-    unit = min(min(size) / 1080, max(size) / 1920)
-    drawn = {text.property("font").pixelSize() for text in texts(page)}
-    assert min(drawn) >= int((26 if robot else 28) * unit)
-    view.setProperty("onToday", 1)
+    assert min(map(letters_of, texts(page))) >= int((26 if robot else 28) * unit_of(size))

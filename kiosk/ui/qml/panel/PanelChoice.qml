@@ -23,9 +23,7 @@ Column {
     property int across: options.length
     property real between: Math.round(9 * Theme.unit)
     readonly property real each: Math.floor((width - (across - 1) * between) / Math.max(1, across))
-    // How high its title is at least, which then ends level with one beside it.
-    property real crown: 0
-    readonly property real heading: asked.implicitHeight
+    property color ground: Theme.paper
     signal picked(string value)
 
     spacing: 8 * Theme.unit
@@ -34,8 +32,6 @@ Column {
     PlainText {
         id: asked
         width: parent.width
-        height: Math.max(implicitHeight, choice.crown)
-        verticalAlignment: Text.AlignBottom
         visible: choice.titled
         text: choice.title
         font.pixelSize: choice.size
@@ -56,6 +52,7 @@ Column {
                 chosen: modelData.value === choice.chosen
                 choosable: true
                 least: choice.least
+                ground: choice.ground
                 horizontalPadding: (choice.even ? 8 : 18) * Theme.unit
                 font.pixelSize: choice.lettering
                 width: choice.even && implicitWidth <= choice.each ? (index % choice.across === choice.across - 1 ? last : choice.each) : Math.min(Math.max(choice.broad, Math.ceil(implicitWidth)), choice.width)

@@ -11,17 +11,9 @@ PanelTable {
     required property bool named
     signal asked()
 
-    // Whether the page has room for larger letters: its last sentence is as large as the rest then, if it has one line.
-    property bool roomy: false
-    // What that takes.
-    readonly property real last: visits.height
-
-    function fitted(size: real, width: real, roomy: bool): real {
-        return roomy && letters.advanceWidth(records.visits) * size / 100 <= width - 2 * inset ? size : Math.max(Theme.denser, 0.94 * size)
-    }
-    // How many lines that sentence has if the page has room.
+    // How many lines its last sentence has.
     function lastLines(size: real, width: real): int {
-        return Math.ceil(letters.advanceWidth(records.visits) * fitted(size, width, true) / 100 / (width - 2 * inset))
+        return Math.ceil(letters.advanceWidth(records.visits) * size / 100 / (width - 2 * inset))
     }
     FontMetrics {
         id: letters
@@ -63,14 +55,11 @@ PanelTable {
         onClicked: counts.asked()
     }
     Balanced {
-        id: visits
         width: parent.width
         text: counts.records.visits
         horizontalAlignment: Text.AlignLeft
-        font.pixelSize: counts.fitted(counts.size, counts.width, counts.roomy)
+        font.pixelSize: counts.size
         color: Theme.faintInk
         wrapMode: Text.Wrap
-        // At the foot of a card that ends level with one beside it.
-        transform: Translate { y: counts.height - counts.wish }
     }
 }

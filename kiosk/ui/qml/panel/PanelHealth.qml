@@ -1,4 +1,4 @@
-// How everything is that is well; the notice tells the rest. In two columns where there is room for them.
+// How everything is that is well, in two columns; the notice tells the rest. Without a notice its heading says that all is well.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -8,75 +8,98 @@ PanelSection {
     id: health
 
     required property PanelScreen panel
-    property bool double: false
-    // What lies between two columns.
-    property real gutter: Theme.gap
+    // Whether nothing at all is to be done.
+    required property bool allWell
     readonly property var words: panel.words
     readonly property var lines: panel.health.lines
+    readonly property int columns: Theme.textSize > 1.15 || lines.length < 2 ? 1 : 2
+    readonly property int rows: Math.ceil(lines.length / columns)
+    readonly property real gutter: Math.round(1.6 * Theme.gap)
+    readonly property real told: 0.94 * size
 
-    readonly property real packed: deep(size, width) * Math.ceil(letters.height)
-
-    // How wide it is if no line of it wraps: its mark, its name, what it says, and the steps between them.
-    function natural(size: real): real {
-        return 2 * inset + 1.25 * size + reach(lines, size) + widest(lines.map(line => line.message), plain, size) + 22 * Theme.unit + 2
-    }
+    // How high it may be: what it has left is shared among its rows, as long as they still stand together.
+    property real most: 0
+    readonly property real spare: Math.max(0, Math.min(limit, (most - bare(size)) / Math.max(1, rows)))
+    readonly property real limit: (Theme.upright ? 5 : 8) * Theme.gap
     function column(width: real): real {
-        return double ? Math.floor((width - 2 * inset - gutter) / 2) : Math.floor(width - 2 * inset)
+        return Math.floor((width - 2 * inset - (columns - 1) * gutter) / columns)
     }
-    // How many lines of text stand below each other on a card so wide.
-    function deep(size: real, width: real): int {
-        const columns = double ? 2 : 1
-        const needs = lines.map((line, at) => {
-            const room = Math.max(1, column(width) - 1.25 * size - namedIn(at, size, width) - 20 * Theme.unit)
-            const whole = widest([line.message], plain, size)
-            return whole <= room ? 1 : Math.ceil(1.1 * whole / room)
-        })
-        return needs.reduce((sum, _, at) => sum + (at % columns === 0 ? Math.max(1, ...needs.slice(at, at + columns)) : 0), 0)
+    // How high each row is where nothing is left.
+    function row(at: int, size: real): real {
+        const room = column(width) - 1.7 * size
+        const each = lines.slice(at * columns, (at + 1) * columns).map(line => wordWidths.plainLines(line.message, 0.94 * size, room))
+        return Math.ceil(1.4 * size) + Math.max(1, ...each) * Math.ceil(1.4 * 0.94 * size)
     }
-    // How far the names reach of the column that this line stands in.
-    function namedIn(at: int, size: real, width: real): real {
-        return Math.min(0.4 * column(width), reach(double ? lines.filter((_, other) => other % 2 === at % 2) : lines, size))
+    function bare(size: real): real {
+        let sum = edges + (allWell ? Math.ceil(1.4 * 1.3 * size) : 0) + (rows - 1) * 10 * Theme.unit
+        for (let at = 0; at < rows; at++)
+            sum += row(at, size)
+        return Math.ceil(sum)
     }
-    // Letters are drawn in whole pixels.
-    function widest(texts: var, measure: FontMetrics, size: real): real {
-        return Math.ceil(Math.max(0, ...texts.map(text => measure.advanceWidth(text) * Math.round(size) / 100)))
-    }
-    // As far as the longest name, and a step.
-    function reach(named: var, size: real): real {
-        return widest(named.map(line => line.name), bold, size) + 14 * Theme.unit
-    }
-    FontMetrics {
-        id: bold
-        font { pixelSize: 100; bold: true }
-    }
-    FontMetrics {
-        id: plain
-        font.pixelSize: 100
-    }
-    FontMetrics {
-        id: letters
-        font.pixelSize: health.size
+    WordWidths {
+        id: wordWidths
     }
 
-    title: words["console-health"]
+    title: allWell ? words["console-all-well"] : ""
+    heightened: 1.3
+    Accessible.role: Accessible.Grouping
+    Accessible.name: words["console-health"]
+    // Its marks stand below those of the notice.
+    inset: Math.round(1.4 * Theme.gap)
+    indent: allWell ? 1.7 * size : 0
     visible: lines.length > 0
+    least: spare < limit ? most : 0
+    apart: 10 * Theme.unit + spare
 
+    PanelMark {
+        parent: health
+        visible: health.allWell
+        x: health.inset
+        y: health.above + (1.3 - 1) * 0.68 * health.size
+        well: true
+        grown: 1.3
+        size: health.size
+    }
     Grid {
-        id: table
         width: parent.width
-        columns: health.double ? 2 : 1
+        topPadding: 0.5 * health.spare
+        bottomPadding: 0.5 * health.spare
+        columns: health.columns
         columnSpacing: health.gutter
         rowSpacing: health.apart
         Repeater {
             model: health.lines
-            delegate: PanelLine {
+            delegate: Row {
+                id: line
                 required property var modelData
-                required property int index
                 width: health.column(health.width)
-                line: modelData
-                words: health.words
-                size: health.size
-                named: health.namedIn(index, health.size, health.width)
+                PanelMark {
+                    id: mark
+                    width: 1.7 * health.size
+                    idle: !line.modelData.is_used
+                    well: line.modelData.is_ok
+                    grown: 1.3
+                    size: health.size
+                    words: health.words[!well ? "console-mark-ill" : idle ? "console-mark-idle" : "console-mark-well"]
+                }
+                Column {
+                    width: parent.width - mark.width
+                    PlainText {
+                        width: parent.width
+                        text: line.modelData.name
+                        font { pixelSize: health.size; bold: true }
+                        color: Theme.ink
+                        wrapMode: Text.Wrap
+                    }
+                    Balanced {
+                        width: parent.width
+                        text: line.modelData.message
+                        font.pixelSize: health.told
+                        color: Theme.faintInk
+                        horizontalAlignment: Text.AlignLeft
+                        least: 0.2
+                    }
+                }
             }
         }
     }

@@ -1,4 +1,4 @@
-// The second page: what holds from the next session on, what was not as planned today, and what is seldom looked at.
+// The third page: what holds from the next session on, and what is seldom looked at.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -43,7 +43,7 @@ Item {
     }
     // How high the page is at least with letters of this size, with the answers closer or not.
     function deep(size: real, close: bool): real {
-        const width = half - 2 * later.inset, records = panel.records, step = 10 * Theme.unit
+        const width = half - 2 * later.inset, step = 10 * Theme.unit
         const line = Math.ceil(letters.height * Math.round(size) / 100)
         const headed = (title, aside, crown) => Math.max(crown, Math.ceil(wordWidths.lines(title, 1.12 * size, width - aside) * 1.12 * line)) + later.edges + 1
         const listed = (counts, title, crown) => headed(title, 0, crown) + counts.reduce((sum, each) => sum + each * line, 0) + Math.max(0, counts.length - 1) * step
@@ -60,12 +60,10 @@ Item {
             const named = Math.min(0.29 * width, 6.5 * size)
             return Math.max(wordWidths.lines(each.name, size, named), wordWidths.plainLines(each.message, size, width - named - 1.25 * size - 2 * step))
         }), words["console-booth"], 0)
-        const noted = records.deviations.map(each => wordWidths.plainLines(each.words + " · " + each.reason, size, width - wordWidths.plain(each.when, size) - step))
-        const day = listed([...noted, ...(noted.length === 0 || records.more !== "" ? [1] : [])], words["console-deviations"], wide ? crown : 0)
         const keys = Math.max(0, ...panel.shortcuts.rows.map(row => wordWidths.bold(row.keys, size)))
         const told = panel.shortcuts.rows.map(row => wordWidths.plainLines(row.words, size, (width - Theme.gap) / 2 - keys - 16 * Theme.unit))
         const known = told.length > 0 ? listed(told.filter((_, at) => at % 2 === 0).map((each, at) => Math.max(each, told[2 * at + 1] ?? 0)), panel.shortcuts.title, 0) + space : 0
-        const after = day + space + known + Math.max(tall(close), 1.45 * size + 18 * Theme.unit)
+        const after = known + Math.max(tall(close), 1.45 * size + 18 * Theme.unit)
         const before = chosen + space + booth
         return Math.ceil(wide ? Math.max(before, after) : before + space + after)
     }
@@ -158,28 +156,6 @@ Item {
         y: next.wide ? 0 : left.height + next.space
         width: left.width
         spacing: next.space
-        PanelSection {
-            width: parent.width
-            title: next.words["console-deviations"]
-            size: next.size
-            // Its heading is level with the one beside it.
-            crown: next.wide ? next.crown : 0
-            PanelEmpty {
-                font.pixelSize: next.size
-                words: next.words["console-deviations-none"]
-                visible: next.panel.records.deviations.length === 0
-            }
-            Repeater {
-                model: next.panel.records.deviations
-                delegate: PanelDeviation {
-                    required property var modelData
-                    deviation: modelData
-                    size: next.size
-                    width: parent.width
-                }
-            }
-            PanelEmpty { words: next.panel.records.more; font.pixelSize: next.size; visible: words !== "" }
-        }
         PanelShortcuts { width: parent.width; shown: next.panel.shortcuts; size: next.size }
         // Apart from what is pressed all day.
         PanelButton {

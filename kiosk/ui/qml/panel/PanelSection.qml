@@ -6,6 +6,7 @@ import ".."
 Rectangle {
     id: section
 
+    // Empty where what stands below needs none.
     required property string title
     property real aside: 0     // how much room the heading leaves for what stands beside it
     default property alias content: body.data
@@ -14,38 +15,41 @@ Rectangle {
     property real crown: 0
     property real size: Theme.dense
     property real apart: 10 * Theme.unit
-    // Not where it is one of several parts of a sheet.
-    property bool framed: true
-    readonly property real inset: Math.round(1.1 * Theme.gap)
+    // How much larger its heading is, and how far it is moved in, for what stands before it.
+    property real heightened: 1.12
+    property real indent: 0
+    property real inset: Math.round(1.1 * Theme.gap)
     // How high it is at least, where it ends with another one beside it.
     property real least: 0
     // What is free above its heading, below that, and below all; and what it takes beside what stands in it.
     readonly property real above: 0.65 * Theme.gap
     readonly property real between: 0.4 * Theme.gap
-    readonly property real edges: above + between + 0.85 * Theme.gap
-    readonly property real frame: heading.height + edges
+    readonly property real edges: above + (title === "" ? 0 : between) + 0.85 * Theme.gap
+    readonly property real frame: (title === "" ? 0 : heading.height) + edges
     readonly property real wish: body.height + frame
 
     // Whole pixels, so that those side by side end in line.
     height: Math.ceil(Math.max(least, wish))
     radius: Theme.radius
-    color: framed ? Theme.white : "transparent"
-    border { color: Theme.edge; width: framed ? 2 * Theme.unit : 0 }
+    color: Theme.white
+    border { color: Theme.edge; width: 2 * Theme.unit }
 
     PlainText {
         id: heading
         anchors { top: parent.top; left: parent.left; right: parent.right; margins: section.inset; topMargin: section.above }
+        anchors.leftMargin: section.inset + section.indent
         anchors.rightMargin: section.inset + section.aside + (section.aside > 0 ? 0.5 * Theme.gap : 0)
+        visible: section.title !== ""
         height: Math.max(implicitHeight, section.crown)
         verticalAlignment: Text.AlignVCenter
         text: section.title
-        font { pixelSize: section.size * 1.12; bold: true }
+        font { pixelSize: section.heightened * section.size; bold: true }
         color: Theme.ink
         wrapMode: Text.Wrap
     }
     Column {
         id: body
-        anchors { top: heading.bottom; left: parent.left; right: parent.right; margins: section.inset; topMargin: section.between }
+        anchors { top: parent.top; left: parent.left; right: parent.right; margins: section.inset; topMargin: section.frame - 0.85 * Theme.gap }
         spacing: section.apart
     }
 }

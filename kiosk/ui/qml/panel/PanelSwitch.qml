@@ -16,15 +16,16 @@ PanelButton {
     font.bold: false
     choosable: true
     chosen: on
-    verticalPadding: 4 * Theme.unit
+    verticalPadding: (stacked ? 9 : 4) * Theme.unit
     readonly property real between: 0.45 * Theme.gap
     Accessible.role: Accessible.CheckBox
 
     contentItem: Item {
         id: parts
-        readonly property real before: bar.sign > 0 ? bar.sign + 0.6 * bar.font.pixelSize : 0
-        implicitWidth: before + wide(bar.words, bar.font) + bar.between + track.width
-        implicitHeight: Math.max(letters.implicitHeight, track.height)
+        readonly property real before: bar.sign > 0 && !bar.stacked ? bar.sign + 0.6 * bar.font.pixelSize : 0
+        readonly property real above: bar.stacked ? Math.max(bar.sign, track.height) + 0.3 * bar.font.pixelSize : 0
+        implicitWidth: bar.stacked ? wide(bar.words, bar.font) : before + wide(bar.words, bar.font) + bar.between + track.width
+        implicitHeight: bar.stacked ? above + letters.implicitHeight : Math.max(letters.implicitHeight, track.height)
         // What is measured depends on the font, which is named for that reason alone.
         function wide(text: string, _font: font): real {
             return Math.ceil(natural.advanceWidth(text)) + 2 * Theme.unit
@@ -39,7 +40,7 @@ PanelButton {
             readonly property real spare: parts.width - parts.before - parts.wide(bar.words, bar.font) - bar.between - track.width - width
             readonly property real after: Math.min(14 * Theme.unit, spare)
             readonly property real room: visible ? width + after : 0
-            visible: spare >= 4 * Theme.unit
+            visible: !bar.stacked && spare >= 4 * Theme.unit
             x: parts.width - track.width - after - width
             y: (parts.height - height) / 2
             width: Math.ceil(0.92 * Math.max(parts.wide(bar.whenOn, bar.font), parts.wide(bar.whenOff, bar.font)))
@@ -50,7 +51,7 @@ PanelButton {
             Accessible.ignored: true
         }
         Drawing {
-            visible: bar.drawing !== ""
+            visible: bar.drawing !== "" && !bar.stacked
             x: (bar.sign - width) / 2
             y: (parts.height - height) / 2
             scale: bar.sign / 24
@@ -60,21 +61,21 @@ PanelButton {
         Balanced {
             id: letters
             x: parts.before
-            y: (parts.height - height) / 2
-            width: parts.width - parts.before - bar.between - state.room - track.width
+            y: (bar.stacked ? 0.72 * parts.height : 0.5 * parts.height) - height / 2
+            width: bar.stacked ? parts.width : parts.width - parts.before - bar.between - state.room - track.width
             text: bar.words
             font: bar.font
             color: bar.front
-            horizontalAlignment: Text.AlignLeft
+            horizontalAlignment: bar.stacked ? Text.AlignHCenter : Text.AlignLeft
             least: 0.6
-            lineHeight: 0.9
+            lineHeight: bar.stacked ? 1 : 0.9
             Accessible.ignored: true
         }
         // The knob says which it is without a colour.
         Rectangle {
             id: track
-            x: parent.width - width
-            y: (parent.height - height) / 2
+            x: bar.stacked ? (parts.width - width) / 2 : parts.width - width
+            y: (bar.stacked ? 0.3 * parts.height : 0.5 * parts.height) - height / 2
             width: 1.9 * bar.knob + 12 * Theme.unit
             height: bar.knob + 12 * Theme.unit
             radius: height / 2

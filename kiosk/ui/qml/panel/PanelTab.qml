@@ -10,6 +10,7 @@ PanelButton {
     choosable: true
     font.bold: true
     // Its words are level with those of the buttons beside it, which stand higher than the line below it.
+    topPadding: 6 * Theme.unit
     bottomPadding: topPadding + 0.3 * Theme.gap
     least: 68 * Theme.unit + 0.3 * Theme.gap
     horizontalPadding: 14 * Theme.unit

@@ -14,11 +14,15 @@ FocusScope {
     // Whole pixels: what ends at a fraction of one would lose its edge.
     readonly property real space: Math.round(0.7 * Theme.gap)
     readonly property real edge: Math.round(1.5 * Theme.gap)
-    property bool onToday: true
+    // Which page is shown, from 0: today, the sessions, and what holds from the next one on.
+    property int page: 0
+    // Whether something on the first page is to be seen.
+    readonly property bool warns: panel.health.matters.length > 0 || panel.alarms.some(alarm => alarm.holds)
     // The words of the ways out are as large as those of the actions.
-    readonly property real lettering: (Theme.textSize > 1.15 ? 1 : wide ? 1.32 : 1.1) * Theme.dense
+    readonly property real lettering: (Theme.textSize > 1.15 ? 1 : wide ? 1.5 : 1.15) * Theme.dense
 
     objectName: "panel"
+    onPageChanged: pane.contentY = 0
     Keys.onEscapePressed: panel.wish("panel", "")
     // The ring comes with the first key: as long as none is pressed, it would only make the way out the strongest line.
     // A visitor who works by keyboard has it back afterwards.
@@ -44,14 +48,14 @@ FocusScope {
         readonly property bool tight: !fits(usual, true)
         // How large the names of the pages are: as large as has room beside the clock.
         readonly property real usual: 1.1 * Theme.dense
-        readonly property real tabSize: [34, 33, 32, 31, 30, 29, 28, 27, 26].map(each => each * Theme.unit)
+        readonly property real tabSize: [38, 36, 34, 33, 32, 31, 30, 29, 28, 27, 26].map(each => each * Theme.unit)
             .find(each => each > usual && fits(each, !tight)) ?? usual
 
         // Whether they have room in this size, with the title before them or without it.
         function fits(size: real, titled: bool): bool {
-            const names = [view.words["console-today"], view.words["console-next-page"]]
+            const names = [view.words["console-today"], view.words["console-sessions-page"], view.words["console-next-page"]]
             return (titled ? wordWidths.bold(view.words["console-title"], Math.max(size, 1.35 * Theme.dense)) + 2 * Theme.gap : 0)
-                + names.reduce((sum, name) => sum + wordWidths.bold(name, size) + 32 * Theme.unit, Theme.gap)
+                + names.reduce((sum, name) => sum + wordWidths.bold(name, size) + 32 * Theme.unit, (names.length - 1) * Theme.gap)
                 + clock.width + close.width + 2 * Theme.gap <= width
         }
         WordWidths { id: wordWidths }
@@ -73,16 +77,32 @@ FocusScope {
                 objectName: "panel-today"
                 words: view.words["console-today"]
                 font.pixelSize: head.tabSize
-                chosen: view.onToday
-                onClicked: view.onToday = true
+                chosen: view.page === 0
+                onClicked: view.page = 0
+                // What is not well stands there alone, and must not be missed on the other pages.
+                PanelMark {
+                    visible: view.warns && !parent.chosen
+                    x: parent.width - 0.7 * width
+                    y: 4 * Theme.unit
+                    well: false
+                    size: 0.7 * head.tabSize
+                    words: view.words["console-mark-ill"]
+                }
             }
             PanelTab {
-                id: second
+                objectName: "panel-sessions"
+                words: view.words["console-sessions-page"]
+                font.pixelSize: head.tabSize
+                chosen: view.page === 1
+                onClicked: view.page = 1
+            }
+            PanelTab {
+                id: last
                 objectName: "panel-next"
                 words: view.words["console-next-page"]
                 font.pixelSize: head.tabSize
-                chosen: !view.onToday
-                onClicked: view.onToday = false
+                chosen: view.page === 2
+                onClicked: view.page = 2
             }
         }
         PlainText {
@@ -142,11 +162,20 @@ FocusScope {
         Item {
             id: content
             width: pane.width
-            height: view.onToday ? today.height : next.height
+            height: [today, stored, next][view.page].height
 
             PanelToday {
                 id: today
-                visible: view.onToday
+                visible: view.page === 0
+                width: parent.width
+                panel: view.panel
+                wide: view.wide
+                seen: pane.height
+                space: view.space
+            }
+            PanelRecords {
+                id: stored
+                visible: view.page === 1
                 width: parent.width
                 panel: view.panel
                 wide: view.wide
@@ -155,7 +184,7 @@ FocusScope {
             }
             PanelNext {
                 id: next
-                visible: !view.onToday
+                visible: view.page === 2
                 width: parent.width
                 panel: view.panel
                 wide: view.wide
@@ -197,7 +226,7 @@ FocusScope {
             color: Theme.faintInk
             wrapMode: Text.Wrap
         }
-        // They stand on the second page.
+        // They stand on the last page.
         PanelButton {
             id: shortcuts
             objectName: "panel-shortcuts"
@@ -205,14 +234,14 @@ FocusScope {
             width: implicitWidth
             // Lower than what is done all day.
             least: 58 * Theme.unit
-            visible: view.onToday && view.panel.shortcuts.rows.length > 0
+            visible: view.page === 0 && view.panel.shortcuts.rows.length > 0
             words: view.words["console-shortcuts"]
             horizontalPadding: 28 * Theme.unit
             ringInPlace: true
             font.pixelSize: view.lettering
             onClicked: {
-                view.onToday = false
-                second.forceActiveFocus(Qt.OtherFocusReason)
+                view.page = 2
+                last.forceActiveFocus(Qt.OtherFocusReason)
             }
         }
     }
