@@ -19,7 +19,7 @@ from kiosk.ui.screens.debrief import QUIET_MODULES
 from kiosk.ui.simulated_visitor import lay_out
 from tests.samples import CATALOGUES, ENGLISH
 from tests.ui.conftest import Booth
-from tests.ui.looking import is_text, items, lies_in, painted
+from tests.ui.looking import described, is_text, items, lies_in, painted
 
 PAGE = Page(title="What we study", paragraphs=("There are two versions.",))
 MAIL, CODE = "study@university.test", "ROME2345-7KQ2M-XR4T4"
@@ -220,22 +220,59 @@ def test_pictures_of_the_result_stand_in_the_middle_of_their_tiles_and_the_page_
     assert bounds(booth.item("continue")).top() - bounds(board).bottom() == pytest.approx(between, abs=2)
 
 
-@pytest.mark.parametrize(("width", "height", "row"), [(1920, 1080, 4), (1080, 1920, 3)])
-def test_pictures_beside_the_thanks_stand_in_two_full_rows_as_wide_as_the_page(
-    booth: Booth, qtbot: QtBot, width: int, height: int, row: int
+@pytest.mark.parametrize(("width", "height", "rows"), [(1920, 1080, (4, 4)), (1080, 1920, (3, 2))])
+def test_pictures_beside_the_thanks_stand_in_two_rows_as_wide_as_the_page(
+    booth: Booth, qtbot: QtBot, width: int, height: int, rows: tuple[int, int]
 ) -> None:
     found(booth, 12)
     shown_at(booth, qtbot, "thanks", width, height)
+    qtbot.waitUntil(lambda: len(kinds(booth, "CardFace", "ThanksView")) == sum(rows))
 
     def cards() -> list[QQuickItem]:
-        shown = [item for item in items(booth.app.window.contentItem()) if lies_in(item, "ThanksView")]
-        return [item for item in shown if item.metaObject().className().startswith("CardFace")]
+        return kinds(booth, "CardFace", "ThanksView")
 
-    qtbot.waitUntil(lambda: len(cards()) == 2 * row)
-    assert len({round(card.x()) for card in cards()}) == row
+    # Cards of full rows stand below each other, and those of a fan between each other.
+    assert len({round(card.x()) for card in cards()}) == (rows[0] if rows[0] == rows[1] else sum(rows))
     ways = bounds(booth.item("page-title")).united(bounds(booth.item("continue")))
     qtbot.waitUntil(lambda: abs(min(bounds(card).left() for card in cards()) - ways.left()) < 12)
     assert max(bounds(card).right() for card in cards()) == pytest.approx(ways.right(), abs=12)
+
+
+@pytest.mark.parametrize(("count", "rows"), [(1, 1), (3, 1), (4, 2), (5, 2), (12, 2)])
+def test_on_an_upright_page_the_thanks_stand_in_the_middle_close_above_a_fan_of_cards(
+    booth: Booth, qtbot: QtBot, count: int, rows: int
+) -> None:
+    found(booth, count)
+    shown_at(booth, qtbot, "thanks", 1080, 1920)
+    qtbot.waitUntil(lambda: len(kinds(booth, "CardFace", "ThanksView")) == min(count, 5))
+    qtbot.waitUntil(lambda: count == 1 or kinds(booth, "CardFace", "ThanksView")[-1].rotation() > 0)
+    cards = [bounds(card) for card in kinds(booth, "CardFace", "ThanksView")]
+    title, way = painted(booth.item("page-title")), bounds(booth.item("continue"))
+    assert title.center().x() == pytest.approx(540, abs=2)
+    # No fan is lop-sided.
+    assert max(card.right() for card in cards) - 540 == pytest.approx(540 - min(card.left() for card in cards), abs=12)
+    lower = [card for card in cards if card.top() > cards[0].center().y()]
+    assert (1 if not lower else 2) == rows
+    assert len(lower) <= len(cards) / 2
+    above, below = cards[0].top() - title.bottom(), way.top() - max(card.bottom() for card in cards)
+    assert above < 60
+    assert below > 30
+    assert booth.item("page-title").property("font").pixelSize() >= 120
+
+
+@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])
+def test_the_helper_says_goodbye_in_large_letters_with_no_sentence_broken_that_has_room(
+    booth: Booth, qtbot: QtBot, width: int, height: int
+) -> None:
+    sentences = ("That was a pleasure.", "Have a lovely day!")
+    booth.app.screens.avatar.say(" ".join(sentences))
+    shown_at(booth, qtbot, "thanks", width, height)
+    words = texts(booth)[("\n" if width > height else " ").join(sentences)]
+    assert lies_in(words, "Bubble")
+    assert words.property("lineCount") == (2 if width > height else 1)
+    assert words.property("font").pixelSize() >= (40 if width > height else 48)
+    # It is told as a whole.
+    assert described(words)[1] == " ".join(sentences)
 
 
 def faces(booth: Booth, *, behind: bool) -> list[QQuickItem]:

@@ -12,6 +12,7 @@ Item {
     property bool calls: false          // whether it is to be read from far away
     property bool grows: false          // whether it has room for large words
     property bool centred: false        // whether its lines and the speaker's name stand in the middle
+    property bool parts: false          // whether it is a goodbye, as large as fits
     property bool cheers: false         // whether the sentence is a cheer: large and bold
     property bool triumphs: false       // whether that is about the last pair: as large as fits
     property string outcome: ""         // what stands above one sentence, as large as a cheer
@@ -48,6 +49,14 @@ Item {
                 : Math.min(...parts.map((_, at) => Math.max(wide(parts.slice(0, at)), wide(parts.slice(at)))))}
         }).find(tried => tried.wide <= room)
         return found ?? {size: Theme.size(50), wide: room}
+    }
+    // A goodbye stands in one line, or has a line for each of its sentences, in as large letters as fit.
+    readonly property var farewell: parts && end === "" ? part(whole, 0.98 * words.width) : null
+    function part(text: string, room: real): var {
+        const lines = text.replace(/([.!?…。！？]) /g, "$1\n").split("\n")
+        const fits = (texts, size) => texts.every(each => wordWidths.plain(each, size) <= room)
+        const size = [48, 44, 40, 36].map(Theme.size).find(size => fits(lines, size))
+        return size === undefined || fits([text], size) ? {size: size ?? Theme.size(36), text} : {size, text: lines.join("\n")}
     }
     WordWidths {
         id: wordWidths
@@ -121,7 +130,7 @@ Item {
         id: usual
         text: words.text
         font.pixelSize: bubble.triumphed ? bubble.triumph : bubble.cheered ? bubble.cheer : bubble.short ? briefly.font.pixelSize : bubble.end !== "" ? bubble.basis
-            : bubble.called !== null ? bubble.called.size : Theme.size(bubble.grows ? (large.high <= bubble.room ? 38 : 34) : 36)
+            : bubble.called !== null ? bubble.called.size : bubble.farewell !== null ? bubble.farewell.size : Theme.size(bubble.grows ? (large.high <= bubble.room ? 38 : 34) : 36)
         font.bold: bubble.cheered
     }
     Measure {
@@ -198,7 +207,7 @@ Item {
         Balanced {
             id: words
             readonly property real high: text === "" && bubble.end !== "" ? 0 : height
-            text: bubble.end === "" ? bubble.whole : bubble.whole.slice(0, -bubble.end.length).trim()
+            text: bubble.farewell !== null ? bubble.farewell.text : bubble.end === "" ? bubble.whole : bubble.whole.slice(0, -bubble.end.length).trim()
             anchors { left: parent.left; right: parent.right; top: parent.top; margins: bubble.inset; topMargin: bubble.pad + bubble.tag + told.high + ending.high }
             // What would not fit above the face is set smaller: half the size takes a quarter of the room.
             font.pixelSize: bubble.share >= 1 ? usual.font.pixelSize

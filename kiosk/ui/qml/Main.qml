@@ -327,7 +327,8 @@ Window {
         rests: root.kiosk.paused
         waits: root.kiosk.asks !== "" || root.kiosk.asksStillThere
         share: layout.faceShare
-        centred: layout.helperBelow && boardPage.visible
+        centred: layout.helperBelow && (boardPage.visible || parts)
+        parts: root.kiosk.screen === "thanks"
         calls: layout.accompanied && attractView.visible
         grows: layout.helperReach > 0
         lift: layout.helperLift

@@ -38,6 +38,8 @@ Item {
     readonly property real faceTop: face.y + 0.1 * face.height
     // Whether its bubble has room for large words.
     property bool grows: false
+    // Whether it says goodbye.
+    property bool parts: false
     // How far its bubble may reach out of it, at the top.
     property real lift: 0
     // Whether it speaks to those who pass.
@@ -123,6 +125,7 @@ Item {
         speaker: panel.avatar.name
         calls: panel.calls
         grows: panel.grows
+        parts: panel.parts
         centred: panel.centred
         advice: sentence === panel.said ? panel.avatar.advice : panel.asideAdvice
         outcome: panel.outcome
