@@ -284,7 +284,6 @@ Item {
                 hand: avatar.reached(modelData, modelData < 0 ? avatar.leftHand : avatar.rightHand)
                 goal: avatar.goal
                 pointing: avatar.near === modelData ? Math.min(1, Math.max(0, avatar.reaching)) : 0
-                visible: hand.y < 480
             }
         }
     }
