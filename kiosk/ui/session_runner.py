@@ -421,10 +421,16 @@ class SessionRunner:
             self._end()
 
     def _end(self) -> None:
-        """Get ready for the next visitor in two steps, of which neither holds the interface long."""
-        session = self._session
-        self._renderer.screens.clear_unseen()
-        self.later(lambda: self._rest("attract") if self._session is session else None)
+        """Get ready for the next visitor page by page, so that no step holds the interface long."""
+        self._clear(self._session, self._renderer.screens.clear_unseen())
+
+    def _clear(self, session: Session | None, pages: Iterator[None]) -> None:
+        if self._session is not session:
+            return
+        for _ in pages:
+            self.later(partial(self._clear, session, pages))
+            return
+        self._rest("attract")
 
     def _is_outrun(self, waiting: WorldEvent, outcome: Outcome) -> bool:
         """Whether what waits belongs to what this outcome has ended."""

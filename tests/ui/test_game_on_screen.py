@@ -17,6 +17,7 @@ from pytestqt.qtbot import QtBot
 from kiosk.config import Settings
 from kiosk.experiment import effects as do
 from kiosk.experiment.effects import BoardWait, Mood
+from kiosk.experiment.events import TextSize
 from kiosk.game import Position
 from kiosk.robots.embodiment import ASIDE, BoardPoint
 from kiosk.ui.app import App
@@ -286,7 +287,8 @@ def test_a_look_holds_the_board_without_a_word_on_the_screen(app: App) -> None:
     board = app.screens.board
     for wait, words in ((BoardWait.SPEAKING, True), (BoardWait.LOOKING, False)):
         renderer(app).perform([do.LockBoard(wait)])
-        assert (board.accepts_taps, board.property("wait") != "", board.property("speaking")) == (False, words, words)
+        shown = find_item(app.window.contentItem(), "pill") is not None
+        assert (board.accepts_taps, shown, board.property("speaking")) == (False, words, words)
 
 
 @pytest.mark.parametrize("moves", [True], indirect=True)
@@ -546,6 +548,31 @@ def test_while_one_card_is_up_and_the_helper_is_silent_the_screen_asks_for_a_sec
     board.clear_highlight()
     board.reveal(Position(0, 1), "cat")
     assert not asked()
+
+
+@BOTH
+@pytest.mark.parametrize("size", [TextSize.NORMAL, TextSize.LARGEST])
+def test_the_cards_keep_their_size_whatever_stands_below_them(still: App, size: TextSize) -> None:
+    """Not even for a moment: each change lays all cards out anew, before the frame in which a tap is answered."""
+    board, screens = still.screens.board, still.screens
+    screens.kiosk.set_text_size(size)
+    screens.avatar.appear(present=False)
+    board.deal(4, 6, 12, "animals")
+    screens.kiosk.show("game")
+    lay_out(still.window)
+    grid, changes, said = find(still, "board"), list[float](), set[str]()
+    grid.widthChanged.connect(lambda: changes.append(grid.width()))
+    grid.heightChanged.connect(lambda: changes.append(grid.height()))
+    board.reveal(Position(0, 0), "cat")
+    for wait in (None, BoardWait.SPEAKING, None, BoardWait.TURNING_BACK, None):
+        board.lock(wait)
+        lay_out(still.window)
+        said |= {i.property("text") for i in items(find(still, "pill")) if i.inherits("QQuickText")}
+    assert changes == []
+    assert len(said) == 3
+    # The room below the cards is enough for each of them.
+    lowest = max(place(find(still, f"card-{n}")).bottom() for n in range(24))
+    assert lowest <= place(find(still, "pill")).top()
 
 
 def test_in_a_practice_the_helper_tells_how_a_move_goes_on(still: App) -> None:

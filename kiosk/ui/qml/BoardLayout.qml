@@ -15,7 +15,8 @@ QtObject {
     required property real lent
     // On which side of the cards the helper speaks: -1 left, 1 right, 0 below them or nowhere.
     required property int spoken
-    // Whether the height passes several values, while the helper comes or goes. The cards are laid out for the last.
+    // Whether the height passes several values, while the helper comes or goes, or the board is made anew. The cards are
+    // laid out for the last.
     required property bool resizes
     required property int rows
     required property int columns
@@ -109,7 +110,9 @@ QtObject {
     onFittingChanged: if (!resizes) fit()
     onResizesChanged: if (!resizes) fit()
     function fit() {
-        cell = fitting
+        // Pictures are loaded for this size: without cards there is no other.
+        if (rows > 0)
+            cell = fitting
     }
     // A pair that was just found has a frame of this thickness; frames of neighbours leave a clear strip between them.
     readonly property real ring: Math.min(12 * Theme.unit, 0.05 * cell)

@@ -23,7 +23,8 @@ FocusScope {
     property alias upright: layout.upright
     property alias lent: layout.lent
     property alias spoken: layout.spoken
-    property alias resizes: layout.resizes
+    // Whether the page's height passes several values.
+    property bool resizes: false
 
     // Where everything is, and what has just happened to the cards.
     readonly property alias boardLayout: layout
@@ -63,7 +64,7 @@ FocusScope {
         upright: false
         lent: 0
         spoken: 0
-        resizes: false
+        resizes: view.resizes || view.board.remaking
         rows: view.board.rows
         columns: view.board.columns
         pairs: view.board.pairs
@@ -72,7 +73,7 @@ FocusScope {
         progressWidth: head.progressWidth
         skipWidth: head.skipWidth
         skipHeight: head.skipHeight
-        pillHeight: pill.height
+        pillHeight: pill.reserved
         onCellChanged: if (view.prepares && view.visible && cards.count > 0) redraw.restart(); else view.drawAtOnce()
     }
     BoardState {
@@ -141,8 +142,9 @@ FocusScope {
         // Above the face, where no sentence stands there.
         y: now.speaking || view.said ? under : Math.round(Math.max(under, view.faceAt - 1.5 * height))
         // A hint that is seen or read needs no announcement any more.
-        visible: asks || (view.board.wait !== "" && !view.told && !(now.speaking && (now.marks || view.said)))
-        text: asks ? view.words["game-second"] : view.board.wait
+        visible: asks || ((now.speaking || now.missed) && !view.told && !(now.speaking && (now.marks || view.said)))
+        words: view.words
+        speaking: now.speaking
         textSize: layout.wordsSize
         upright: layout.upright
         most: view.width

@@ -30,8 +30,6 @@ QML_IMPORT_NAME = "Recollect"
 QML_IMPORT_MAJOR_VERSION = 1
 
 _NOWHERE = -1
-_WAITS = {BoardWait.SPEAKING: "game-wait-speaking", BoardWait.TURNING_BACK: "game-wait-turning-back"}
-"""What the screen says while taps do not count; it says nothing during a look."""
 
 
 class Role(IntEnum):
@@ -63,6 +61,8 @@ class BoardScreen(QAbstractListModel):
     """The size of the board, or the language; apart from the next three, because every card and text follows."""
     counted = Signal()
     """A pair was found, or a move was made."""
+    remade = Signal()
+    """The board begins to be made anew, or is."""
     waited = Signal()
     """Taps count again, or no longer."""
     marked = Signal()
@@ -91,7 +91,7 @@ class BoardScreen(QAbstractListModel):
         self._practice = False
         self._faces: list[_Face] = []
         self._rows = self._columns = self._pairs = self._pairs_found = self._moves = 0
-        self._untouched = self._one_up = False
+        self._untouched = self._one_up = self._remaking = False
         self._wait: BoardWait | None = None
         self._mark_row = self._mark_column = _NOWHERE
         self.looked_at: tuple[int | None, int | None] = (None, None)
@@ -116,6 +116,8 @@ class BoardScreen(QAbstractListModel):
         self._deck_name = deck
         # The old cards go first, and the new ones come last: none is made in the size of another board.
         self._put([])
+        self._remaking = True
+        self.remade.emit()
         self._rows, self._columns, self._pairs = rows, columns, pairs
         self._practice = practice
         self._tray = []
@@ -128,6 +130,8 @@ class BoardScreen(QAbstractListModel):
         self.counted.emit()
         self.waited.emit()
         self.clear_highlight()
+        self._remaking = False
+        self.remade.emit()
 
     def lay_cards(self) -> None:
         """Show the closed cards that there is room for."""
@@ -340,6 +344,11 @@ class BoardScreen(QAbstractListModel):
         """Whether this is a practice, and can be left."""
         return self._practice
 
+    @Property(bool, notify=remade)
+    def remaking(self) -> bool:
+        """Whether rows, columns and pairs change, one after another: what they make together is not known yet."""
+        return self._remaking
+
     @Property(bool, notify=touched)
     def untouched(self) -> bool:
         """Whether no card of these was turned yet."""
@@ -364,12 +373,6 @@ class BoardScreen(QAbstractListModel):
     def missed(self) -> bool:
         """Whether two cards that are no pair wait to turn back."""
         return self._wait is BoardWait.TURNING_BACK
-
-    @Property(str, notify=waited)
-    def wait(self) -> str:
-        """Why taps do not count, in words; empty where they count, and during a look."""
-        message = _WAITS.get(self._wait) if self._wait is not None else None
-        return "" if message is None else self._catalogue.text(message)
 
     @Property(int, notify=marked)
     def markRow(self) -> int:  # noqa: N802 - QML's convention

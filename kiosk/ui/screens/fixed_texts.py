@@ -33,6 +33,8 @@ FIXED = (
     "practice-skip",
     "game-begin",
     "game-second",
+    "game-wait-speaking",
+    "game-wait-turning-back",
     "practice-second",
     "practice-turning-back",
     "practice-no-pair",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import partial
 from typing import Protocol
 
@@ -139,8 +140,8 @@ class ScreenSet:
             screen.clear()
         self.set_language(self.resting)
 
-    def clear_unseen(self) -> None:
-        """Leave nothing of a visitor on the pages that do not stand there."""
+    def clear_unseen(self) -> Iterator[None]:
+        """Leave nothing of a visitor on the pages that do not stand there; yields before each of them."""
         for screen, names in (
             (self.about, {"about"}),
             (self.consent, {"consent"}),
@@ -150,6 +151,7 @@ class ScreenSet:
             (self.debrief, {"debrief"}),
         ):
             if self.kiosk.shown not in names:
+                yield
                 screen.clear()
 
     def connect_input(self, to: InputHandler) -> None:
