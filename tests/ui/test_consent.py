@@ -5,7 +5,7 @@ from __future__ import annotations
 import tomllib
 
 import pytest
-from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QAccessible, QAccessibleInterface
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 from pytestqt.qtbot import QtBot
@@ -61,26 +61,38 @@ def says(item: QQuickItem, text: str) -> bool:
 def test_nothing_is_ticked_beforehand_and_the_required_boxes_say_so(booth: Booth, page: ConsentPage) -> None:
     booth.app.screens.consent.show(page)
     booth.settle()
-    assert booth.sees("consent-optional") == (page is SHORT)
+    assert booth.sees("consent-needed") == (page is SHORT)
     for purpose in page.purposes:
         box, note = booth.item(f"purpose-{purpose.id}"), "needed" if purpose.required else "up to you"
+        if page is SHORT and not purpose.required:
+            note = "Up to you"
         assert not box.property("on")
-        assert says(box, note) == (page is not SHORT)
+        # The heading of a card says it for all boxes in it.
+        assert says(box, note) == (page is not SHORT or not purpose.required)
         told = QAccessible.queryAccessibleInterface(box)
         assert isinstance(told, QAccessibleInterface)
         assert told.text(QAccessible.Text.Description) == note
 
 
 @pytest.mark.usefixtures("done")
-def test_a_heading_stands_over_the_boxes_that_are_up_to_the_visitor(booth: Booth) -> None:
-    booth.app.screens.consent.show(SHORT)
-    booth.settle()
-    heading = booth.item("consent-optional")
-    assert heading.property("text") == "Up to you"
-    tops = [
-        booth.item(name).mapToScene(QPointF()).y() for name in ("purpose-store", "consent-optional", "purpose-share")
-    ]
-    assert tops == sorted(tops)
+@pytest.mark.parametrize("language", ["en", "ar"])
+@pytest.mark.parametrize("size", [(1920, 1080), (1080, 1920)], ids=["wide", "upright"])
+def test_the_boxes_that_are_needed_share_a_card_with_a_heading_and_the_others_stand_below(
+    booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
+) -> None:
+    window = show_short(booth, qtbot, language, size)
+    lay_out(window)
+    card, heading = place(booth.item("consent-card")), place(booth.item("consent-needed"))
+    first, second, other = (place(booth.item(f"purpose-{purpose.id}")) for purpose in SHORT.purposes)
+    assert all(card.contains(each) for each in (heading, first, second))
+    assert heading.bottom() <= first.top()
+    assert first.bottom() < second.top()
+    assert other.top() - card.bottom() >= 12
+    # As far from the last box to the edge as at its sides, and all marks stand below each other.
+    assert card.bottom() - second.bottom() == pytest.approx(second.left() - card.left(), abs=3)
+    assert (other.left(), other.width()) == (card.left(), card.width())
+    marks = {round(place(booth.item(f"purpose-{name}").childItems()[-1].childItems()[0]).left()) for name in REQUIRED}
+    assert len(marks) == 1
 
 
 @pytest.mark.usefixtures("done")
@@ -121,27 +133,40 @@ def test_a_double_click_is_one_tick(booth: Booth, done: Done) -> None:
     assert done == [("store", True)]
 
 
-def test_the_heading_alone_says_what_is_to_be_ticked_until_the_required_boxes_are(booth: Booth, done: Done) -> None:
+def under(booth: Booth, name: str) -> QQuickItem:
+    """Return the line below the words of an answer."""
+    (line,) = (text for text in texts(booth.item(name)) if text.objectName() == "under")
+    return line
+
+
+def test_each_answer_says_what_follows_and_one_how_many_boxes_it_still_needs(booth: Booth, done: Done) -> None:
     booth.app.screens.consent.show(SHORT)
-    headings = [
-        "To take part, tick the 2 boxes that are needed",
-        "To take part, tick one more box",
-        "That is all that is needed. Now choose below.",
-    ]
+    lines = ["2 boxes to go", "1 box to go", "Your data are stored."]
     # A tick that is up to the visitor changes nothing.
     ticked = [frozenset({"share"}), REQUIRED - {"store"}, REQUIRED]
-    for heading, ticks in zip(headings, ticked, strict=True):
+    for line, ticks in zip(lines, ticked, strict=True):
         booth.app.screens.consent.show_ticks(ticks)
         lay_out(booth.app.window)
-        assert booth.item("consent-waits").property("text") == heading
         shown = [text.property("text") for text in texts(booth.app.window.contentItem())]
-        assert [text for text in shown if "2 boxes" in text or "choose" in text or "more box" in text] == [heading]
-        told = QAccessible.queryAccessibleInterface(booth.item("agree"))
-        assert isinstance(told, QAccessibleInterface)
-        assert told.text(QAccessible.Text.Description) == ("" if ticks == REQUIRED else heading)
+        assert [text for text in shown if text in lines] == [line]
+        assert shown.count("Needed to take part") == 1
+        for name, follows in (("agree", line), ("decline", "Nothing about you is stored.")):
+            assert under(booth, name).property("text") == follows
+            told = QAccessible.queryAccessibleInterface(booth.item(name))
+            assert isinstance(told, QAccessibleInterface)
+            assert told.text(QAccessible.Text.Description) == follows
     booth.app.screens.consent.show_ticks(frozenset())
     booth.click("agree")
     assert done == ["agreed"]
+
+
+@pytest.mark.usefixtures("done")
+def test_the_card_has_a_strong_edge_until_its_boxes_are_ticked(booth: Booth) -> None:
+    booth.app.screens.consent.show(SHORT)
+    for ticks, strong in ((frozenset({"share"}), 1), (REQUIRED - {"store"}, 1), (REQUIRED, 0), (frozenset[str](), 1)):
+        booth.app.screens.consent.show_ticks(ticks)
+        lay_out(booth.app.window)
+        assert booth.item("consent-due").opacity() == strong
 
 
 def show_short(booth: Booth, qtbot: QtBot, language: str, size: tuple[int, int]) -> QQuickWindow:
@@ -156,21 +181,32 @@ def show_short(booth: Booth, qtbot: QtBot, language: str, size: tuple[int, int])
 
 
 @pytest.mark.usefixtures("done")
+@pytest.mark.parametrize("scale", [1.0, 1.3, 1.5])
 @pytest.mark.parametrize("language", ["en", "es", "it", "de", "ar"])
 @pytest.mark.parametrize("size", [(1920, 1080), (1080, 1920)], ids=["wide", "upright"])
-def test_the_heading_is_as_large_in_one_line_whatever_it_says(
-    booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
+def test_what_follows_from_either_answer_has_the_same_letters_at_the_same_height_within_it(
+    booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str, scale: float
 ) -> None:
+    booth.app.window.setProperty("textSize", scale)
     window = show_short(booth, qtbot, language, size)
-    heights = set()
+    booth.app.screens.kiosk.offer_back(offered=True)
     for ticks in (frozenset[str](), REQUIRED - {"store"}, REQUIRED):
         booth.app.screens.consent.show_ticks(ticks)
         lay_out(window)
-        heading = booth.item("consent-waits")
-        assert heading.property("lineCount") == 1
-        # Words that are too long for the line have smaller letters.
-        heights.add(round(painted(heading).height()))
-    assert len(heights) == 1
+        lines = [under(booth, name) for name in ("decline", "agree")]
+        assert lines[0].property("font") == lines[1].property("font")
+        assert lines[0].property("font").pixelSize() >= 24
+        tops = [
+            place(line).top() - place(booth.item(name)).top()
+            for line, name in zip(lines, ("decline", "agree"), strict=True)
+        ]
+        assert tops[0] == tops[1]
+        for line, name in zip(lines, ("decline", "agree"), strict=True):
+            answer, letters = place(booth.item(name)), painted(line)
+            # They keep clear of the round ends.
+            assert letters.left() - answer.left() >= 22
+            assert answer.right() - letters.right() >= 22
+            assert letters.bottom() <= answer.bottom() - 8
 
 
 @pytest.mark.usefixtures("done")
@@ -188,24 +224,19 @@ def test_both_answers_have_room_around_their_words_and_are_clear_of_the_boxes(
     assert min(place(booth.item(f"purpose-{purpose.id}")).height() for purpose in SHORT.purposes) >= 100
     # As much is free at both ends of either.
     for answer in (decline, agree):
-        (words,) = texts(answer)
+        (words,) = (text for text in texts(answer) if text.objectName() != "under")
         assert painted(words).left() - place(answer).left() >= 46
         assert place(answer).right() - painted(words).right() >= 46
     if size[0] > size[1]:
         back = place(booth.item("back"))
         assert max(back.left() - both.right(), both.left() - back.right()) >= 46
-        # Two lines of words reach a little below the row.
+        # With what follows below their words, they reach a little below the row.
         assert 1080 - both.bottom() == pytest.approx(40, abs=5)
     else:
-        for heading, above in (("consent-waits", None), ("consent-optional", "purpose-store")):
-            letters = painted(booth.item(heading))
-            lowest = (
-                place(booth.item(above)).bottom()
-                if above
-                else max(place(text).bottom() for text in texts(window.contentItem()) if lies_in(text, "SignedLine"))
-            )
-            # A line has a part of its height free above its capitals.
-            assert letters.top() + 0.3 * letters.height() - lowest >= 46
+        # The refusal is not hit on the way back.
+        assert place(booth.item("back")).top() - both.bottom() >= 40
+        lowest = max(place(text).bottom() for text in texts(window.contentItem()) if lies_in(text, "SignedLine"))
+        assert place(booth.item("consent-card")).top() - lowest >= 36
 
 
 def test_what_is_missing_is_said_in_words_until_it_is_ticked(booth: Booth, done: Done) -> None:
@@ -217,6 +248,23 @@ def test_what_is_missing_is_said_in_words_until_it_is_ticked(booth: Booth, done:
     assert done == [("store", True)]
     booth.app.screens.consent.show_ticks(frozenset({"store"}))
     assert not says(booth.item("purpose-store"), words)
+
+
+@pytest.mark.usefixtures("done")
+def test_of_several_boxes_of_a_card_that_are_missed_the_first_says_so_in_words(booth: Booth) -> None:
+    booth.app.screens.consent.show(SHORT)
+    booth.settle()
+    words = "Please tick this box if you want to take part."
+    boxes = [booth.item(f"purpose-{name}") for name in ("take_part", "store")]
+    booth.app.screens.consent.show_missing(("take_part", "store"))
+    assert [says(box, words) for box in boxes] == [True, False]
+    # The others have the edge, and tell it to those who cannot see that.
+    for box in boxes:
+        told = QAccessible.queryAccessibleInterface(box)
+        assert isinstance(told, QAccessibleInterface)
+        assert told.text(QAccessible.Text.Description) == words
+    booth.app.screens.consent.show_ticks(frozenset({"take_part"}))
+    assert [says(box, words) for box in boxes] == [False, True]
 
 
 @pytest.mark.parametrize("shown", [{}, {"textSize": 1.3}, {"textSize": 1.5}, {"highContrast": True}], ids=str)
@@ -236,11 +284,14 @@ def test_to_decline_looks_like_to_agree_before_and_after_the_boxes_are_ticked(
 
     before = looks()
     booth.app.screens.consent.show_ticks(REQUIRED)
-    assert looks() == before
-    decline, agree, back = before
-    assert decline == agree
-    # Both are filled, and the way back is not.
-    assert decline[2] == agree[2] != back[2]
+    after = looks()
+    for decline, agree, _ in (before, after):
+        assert decline == agree
+    # Both are filled once both can be chosen, and change nothing else; the way back stays as it is.
+    assert before[0][:2] == after[0][:2]
+    assert before[0][2:] == after[0][:1:-1]
+    assert before[2] == after[2]
+    assert after[0][2] != after[2][2]
     booth.click("decline")
     assert done == ["declined"]
 
@@ -303,10 +354,10 @@ def test_on_an_upright_screen_points_and_boxes_are_all_seen_at_once(
     assert booth.sees("purpose-share")
     assert not booth.sees("more")
     # Larger texts do not cost the page its headings.
-    assert booth.sees("consent-optional")
+    assert booth.sees("consent-needed")
     if scale == 1:
         read = [text for text in texts(window.contentItem()) if lies_in(text, "SignedLine", "TickBox")]
-        assert min(text.property("font").pixelSize() for text in read) >= 36
+        assert min(text.property("font").pixelSize() for text in read if text.objectName() != "tag") >= 36
 
 
 def test_a_keyboard_alone_decides(booth: Booth, done: Done) -> None:

@@ -36,22 +36,21 @@ consent-required = needed
 consent-optional = up to you
 consent-agreed = agreed
 consent-missing = Please tick this box if you want to take part.
-# Above the boxes that are needed, as long as none of them has a tick.
-consent-waits =
-    { $number ->
-        [one] To take part, tick the box that is needed
-       *[other] To take part, tick the { $number } boxes that are needed
-    }
-# In its place, as long as only some of them have one.
+# Over the boxes that are needed.
+consent-needed = Needed to take part
+# Below the words of consent-agree, as long as some of them have no tick.
 consent-to-go =
     { $number ->
-        [one] To take part, tick one more box
-       *[other] To take part, tick { $number } more boxes
+        [one] { $number } box to go
+       *[other] { $number } boxes to go
     }
-# In its place, once all of them have one. It must favour neither answer.
+# Told to those who cannot see it once all of them have one. It must favour neither answer.
 consent-ready = That is all that is needed. Now choose below.
 consent-agree = I take part
-consent-decline = Play without taking part
+# What follows, below each answer. Both lines are about as long.
+consent-agree-line = Your data are stored.
+consent-decline = Just play
+consent-decline-line = Nothing about you is stored.
 consent-more = Read all of it
 consent-less = Show less
 

@@ -37,22 +37,21 @@ consent-required = necesario
 consent-optional = como prefieras
 consent-agreed = de acuerdo
 consent-missing = Si quieres participar, marca esta casilla.
-# Above the boxes that are needed, as long as none of them has a tick.
-consent-waits =
-    { $number ->
-        [one] Para participar, marca la casilla necesaria
-       *[other] Para participar, marca las { $number } casillas necesarias
-    }
-# In its place, as long as only some of them have one.
+# Over the boxes that are needed.
+consent-needed = Necesario para participar
+# Below the words of consent-agree, as long as some of them have no tick.
 consent-to-go =
     { $number ->
-        [one] Para participar, marca una casilla más
-       *[other] Para participar, marca { $number } casillas más
+        [one] Falta { $number } casilla
+       *[other] Faltan { $number } casillas
     }
-# In its place, once all of them have one. It must favour neither answer.
+# Told to those who cannot see it once all of them have one. It must favour neither answer.
 consent-ready = No hace falta nada más. Ahora elige abajo.
 consent-agree = Participo
-consent-decline = Jugar sin participar
+# What follows, below each answer. Both lines are about as long.
+consent-agree-line = Guardamos tus datos.
+consent-decline = Solo jugar
+consent-decline-line = No guardamos nada sobre ti.
 consent-more = Leer todo
 consent-less = Mostrar menos
 

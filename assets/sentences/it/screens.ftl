@@ -37,22 +37,21 @@ consent-required = necessario
 consent-optional = come preferisci
 consent-agreed = d'accordo
 consent-missing = Se vuoi partecipare, spunta questa casella.
-# Above the boxes that are needed, as long as none of them has a tick.
-consent-waits =
-    { $number ->
-        [one] Per partecipare, spunta la casella necessaria
-       *[other] Per partecipare, spunta le { $number } caselle necessarie
-    }
-# In its place, as long as only some of them have one.
+# Over the boxes that are needed.
+consent-needed = Serve per partecipare
+# Below the words of consent-agree, as long as some of them have no tick.
 consent-to-go =
     { $number ->
-        [one] Per partecipare, spunta ancora una casella
-       *[other] Per partecipare, spunta ancora { $number } caselle
+        [one] Manca { $number } casella
+       *[other] Mancano { $number } caselle
     }
-# In its place, once all of them have one. It must favour neither answer.
+# Told to those who cannot see it once all of them have one. It must favour neither answer.
 consent-ready = È tutto ciò che serve. Ora scegli qui sotto.
 consent-agree = Partecipo
-consent-decline = Gioco senza partecipare
+# What follows, below each answer. Both lines are about as long.
+consent-agree-line = Conserviamo i tuoi dati.
+consent-decline = Solo giocare
+consent-decline-line = Non conserviamo nulla su di te.
 consent-more = Leggi tutto
 consent-less = Mostra meno
 

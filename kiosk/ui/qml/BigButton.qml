@@ -20,6 +20,13 @@ Button {
     // How far it is from the words there.
     readonly property real apart: 0.8 * Theme.gap
     readonly property bool noteBeside: note !== "" && measure.advanceWidth + apart + noted.advanceWidth + 2.4 * Theme.gap <= width
+    // What follows from it, in smaller letters below its words, and on how many lines.
+    property string under: ""
+    property real underSize: Theme.small
+    property int underLines: 1
+    readonly property real underTall: under === "" ? 0 : Math.ceil(1.37 * underLines * underSize)
+    // Whether it has its colour in its edge alone: one that cannot be chosen yet, and all that are to look like it.
+    property bool hollow: false
     // How round it is at most.
     property real corner: Infinity
     property real letters: Theme.onButtons
@@ -36,6 +43,7 @@ Button {
     property real tall: 52 * Theme.unit + 1.36 * Theme.body
     readonly property alias line: lines.height
     verticalPadding: (tall - Math.ceil(line)) / 2
+    bottomPadding: verticalPadding + underTall + (under === "" ? 0 : 4 * Theme.unit)
     font.pixelSize: letters
     font.bold: true
     scale: down ? 0.96 : 1
@@ -70,7 +78,7 @@ Button {
         textFormat: Text.PlainText
         text: button.words
         font: button.font
-        color: !button.quiet ? Theme.white : button.waits ? Theme.faintInk : Theme.sea
+        color: !button.quiet && !button.hollow ? Theme.white : button.waits ? Theme.faintInk : Theme.sea
         horizontalAlignment: Text.AlignHCenter
         verticalAlignment: Text.AlignVCenter
         // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
@@ -91,13 +99,29 @@ Button {
         color: button.waits ? Theme.faintInk : button.quiet ? Theme.sea : Theme.white
         Accessible.ignored: true
     }
+    Text {
+        objectName: "under"
+        x: (parent.width - width) / 2
+        y: parent.height - button.verticalPadding - height
+        width: parent.width - 2 * Theme.gap
+        height: button.underTall
+        visible: button.under !== ""
+        textFormat: Text.PlainText
+        text: button.under
+        font.pixelSize: button.underSize
+        wrapMode: button.underLines > 1 ? Text.Wrap : Text.NoWrap
+        horizontalAlignment: Text.AlignHCenter
+        verticalAlignment: Text.AlignVCenter
+        color: button.hollow ? Theme.ink : Theme.white
+        Accessible.ignored: true
+    }
     background: Rectangle {
         id: ground
         radius: Math.min(height / 2, button.topPadding + button.font.pixelSize, button.corner)
-        color: button.waits ? Theme.resting : button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
+        color: button.waits ? Theme.resting : button.quiet ? "transparent" : button.hollow ? (button.hovered ? Theme.touchable : Theme.white) : button.hovered ? Theme.lightSea : Theme.sea
         // Without an edge it looks at rest. With high contrast the edge is all that shows where it is.
-        border.color: button.waits ? Theme.slot : Theme.shy
-        border.width: button.waits && !Theme.highContrast ? 0 : button.quiet || button.waits ? 3 * Theme.unit : 0
+        border.color: button.waits ? Theme.slot : button.hollow ? Theme.sea : Theme.shy
+        border.width: button.waits && !Theme.highContrast ? 0 : button.quiet || button.hollow || button.waits ? 3 * Theme.unit : 0
         FocusRing {
             around: button
             radius: ground.radius + reach

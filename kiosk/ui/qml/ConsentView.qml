@@ -20,12 +20,13 @@ PageFrame {
     // apart its groups are, and how many are in a box above and below its words. Whether it has the largest of all, and
     // whether even the smallest are too large.
     readonly property bool upright: width < height
-    readonly property var sizes: upright ? [[38, 36, 1, 0.8], [38, 36, 0.7, 0.6], [36, 36, 0.6, 0.5], [36, 36, 0.4, 0.35], [34, 33, 0.6, 0.4], [34, 33, 0.4, 0.35], [32, 31, 0.4, 0.25]]
-        : [[34, 33, 0.9, 0.8], [34, 33, 0.9, 0.5], [34, 33, 0.6, 0.35], [32, 31, 0.6, 0.35], [32, 31, 0.4, 0.25], [30, 29, 0.4, 0.25]]
+    readonly property var sizes: upright ? [[38, 36, 1, 0.8], [38, 36, 0.7, 0.6], [36, 36, 0.6, 0.5], [36, 36, 0.4, 0.35], [36, 36, 0.4, 0.25], [34, 33, 0.6, 0.4], [34, 33, 0.4, 0.35], [32, 31, 0.4, 0.25], [30, 29, 0.4, 0.2]]
+        : [[34, 34, 0.9, 0.8], [34, 33, 0.9, 0.5], [34, 33, 0.6, 0.35], [32, 31, 0.6, 0.35], [32, 31, 0.4, 0.25], [30, 29, 0.4, 0.25]]
     readonly property int fitting: short ? sizes.findIndex(([point, box, apart, inside]) => tall(point, box, apart, inside) <= pane.room) : -1
-    // How far a heading keeps from what is above it, of which its own line has a part above its letters.
-    readonly property real clear: (upright ? 48 : 36) * Theme.unit - 0.3 * Theme.size(36)
-    readonly property real heads: Theme.size(upright ? 38 : Math.min(36, used[0] + 2))
+    readonly property real heads: Theme.size(upright ? 40 : 38)
+    // How far the boxes of a card keep from its edges: at its sides, and above and below.
+    readonly property real inset: (upright ? 22 : 24) * Theme.unit
+    readonly property real pad: (upright ? 24 : 22) * Theme.unit
     // How wide a drawing is for its letters.
     readonly property real badge: upright || !paired || Theme.textSize > 1 ? 2.1 : 2.5
     // Two points stand beside each other on a wide page, which leaves height to what there is to tick.
@@ -33,21 +34,21 @@ PageFrame {
     readonly property bool snug: fitting !== 0
     readonly property bool tight: fitting < 0
     readonly property var used: sizes[tight ? sizes.length - 1 : Math.min(fitting, sizes.length - 1)]
-    FontMetrics {
-        id: measure
-        font.pixelSize: 100
+    WordWidths {
+        id: widths
     }
     // About how high points and boxes are, with letters of these sizes, so many gaps apart.
     function tall(pointSize: real, boxSize: real, apart: real, inside: real): real {
-        const wide = paired ? 0.5 * column - Theme.gap : column
-        const points = read.map(point => Math.max(badge * pointSize, 1.48 * pointSize * lines(point.text, pointSize, badge * pointSize + 24, wide)))
-        const boxes = consent.purposes.reduce((sum, purpose) => sum + Math.max((upright ? 76 : 64) / Theme.textSize, 1.37 * boxSize * lines(purpose.text, boxSize, 64 + 3 * 28, column)), 0)
-        return Theme.size((paired ? Math.max(...points) : points.reduce((sum, point) => sum + point, 0)) + boxes) + 2 * (1.37 * Theme.size(upright ? 38 : 36) + clear)
-            + (apart * (0.9 * (paired ? 0 : read.length - 1) + consent.purposes.length) + 2 * inside * consent.purposes.length) * Theme.gap
+        const wide = paired ? 0.5 * column - Theme.gap : column, [point, box] = [Theme.size(pointSize), Theme.size(boxSize)]
+        const points = read.map(each => Math.max(badge * point, 1.48 * point * widths.plainLines(each.text, point, wide - badge * point - Theme.gap)))
+        const boxes = consent.purposes.map(purpose => 2 * inside * Theme.gap + Math.max((upright ? 76 : 64) * Theme.unit,
+            widths.leading * (purpose.required ? 0 : Theme.size(28)) + widths.leading * box * widths.plainLines(purpose.text, box, column - 2 * inset - 144 * Theme.unit)))
+        const needed = consent.purposes.filter(purpose => purpose.required).length
+        return (paired ? Math.max(...points) : sum(points)) + sum(boxes) + 1.2 * heads + 2 * pad
+            + (apart * (0.9 * (paired ? 0 : read.length - 1) + needed) + Math.min(1.6, 0.2 + apart) * (1 + consent.purposes.length - needed)) * Theme.gap
     }
-    // On how many lines a text is in so much width that leaves so much of it to something else.
-    function lines(text: string, size: real, taken: real, wide: real): int {
-        return Math.ceil(1.05 * measure.advanceWidth(text) * size / 100 / (wide / Theme.unit / Math.max(1, Theme.textSize) - taken))
+    function sum(heights: var): real {
+        return heights.reduce((all, each) => all + each, 0)
     }
 
     title: consent.title
@@ -55,10 +56,17 @@ PageFrame {
     other: words["consent-decline"]
     way.name: "agree"
     way.even: true
-    way.reason: consent.toGo
+    // Both are filled once both can be chosen.
+    way.hollow: consent.toGo !== ""
+    way.follows: consent.toGo || words["consent-agree-line"]
+    way.otherFollows: words["consent-decline-line"]
+    way.reason: way.follows
     way.otherName: "decline"
     onWent: consent.agree()
     onTurnedDown: consent.decline()
+    // Those who cannot see the answers change hear of it.
+    readonly property string heard: consent.toGo || words["consent-ready"]
+    onHeardChanged: if (visible) home.Accessible.announce(heard, Accessible.Polite)
     onVisibleChanged: {
         whole = false
         home.focus = true
@@ -108,10 +116,10 @@ PageFrame {
             id: pane
             width: parent.width
             // The boxes keep some distance from the answers below, but where large texts need the room.
-            room: view.room - Math.max(0, view.way.over - 0.5 * Theme.gap) - (Theme.textSize > 1.15 ? 0 : (view.upright && Theme.textSize <= 1 ? 1.5 : 0.5) * Theme.gap)
+            room: view.room - Math.max(0, view.way.over - 0.5 * Theme.gap) - (Theme.textSize > 1.15 ? 0 : (view.upright && Theme.textSize <= 1 ? 1 : 0.5) * Theme.gap)
             more: view.words["scroll-more"]
             // What there is to tick stands apart from what is read, as far as the page has room.
-            spacing: view.upright && boxes.grouped ? boxes.before : Math.max(0.5 * Theme.gap, Math.min((view.upright ? 3.4 : 2.2) * Theme.gap, room - (view.short ? points.height : sheet.height) - boxes.height))
+            spacing: boxes.grouped ? boxes.apart : Math.max(0.5 * Theme.gap, Math.min((view.upright ? 3.4 : 2.2) * Theme.gap, room - (view.short ? points.height : sheet.height) - boxes.height))
 
             Grid {
                 id: points
@@ -131,6 +139,8 @@ PageFrame {
                         sign: modelData.sign
                         badge: view.badge * size
                         size: points.airy ? Theme.size(view.used[0]) : Theme.body
+                        // What is read is quieter than what there is to do.
+                        ink: Theme.faintInk
                     }
                 }
             }
@@ -173,102 +183,131 @@ PageFrame {
                     size: Theme.small
                 }
             }
-            Column {
+            Item {
                 id: boxes
                 width: pane.width
+                height: stack.height
                 readonly property bool needs: view.consent.purposes.some(purpose => purpose.required)
-                // Whether a heading stands over each group, and not a word at each box: if all that are needed come first, and
-                // where the page has room.
-                readonly property bool grouped: needs && view.short && points.airy && view.consent.purposes.every((purpose, index, all) => purpose.required || !all.slice(index).some(other => other.required))
-                // With a capital letter, as a heading.
+                // How many there are by now: the count changes before they are made.
+                property int made: 0
+                // How many come first that are needed.
+                readonly property int first: {
+                    const others = view.consent.purposes.findIndex(purpose => !purpose.required)
+                    return others < 0 ? view.consent.purposes.length : others
+                }
+                // Whether those that are needed share a card, as the answers to a question do, and not a word at each box: if
+                // all of them come first, and where the page has room.
+                readonly property bool grouped: needs && view.short && points.airy && view.consent.purposes.every((purpose, index) => !purpose.required || index < first)
+                // With a capital letter, as a line of its own.
                 readonly property string optional: view.words["consent-optional"].charAt(0).toUpperCase() + view.words["consent-optional"].slice(1)
-                readonly property bool parted: grouped && view.consent.purposes.some(purpose => !purpose.required)
-                // What the page has left for distances before its headings.
+                readonly property real inset: grouped ? view.inset : 0
+                // What the page has left for the distance between cards.
                 readonly property real free: {
-                    let left = pane.room - points.height - (parted ? 2 : 1) * waits.height
-                    for (let i = 0; i < purposes.count; i++)
-                        left -= ((purposes.itemAt(i) as Purpose)?.bare ?? 0) + spacing
+                    let left = pane.room - points.height - (grouped ? 2 * view.pad + heading.height : 0)
+                    for (let i = 0; i < made; i++)
+                        left -= ((purposes.itemAt(i) as Purpose)?.bare ?? 0) + (i < first ? stack.spacing : 0)
                     return left
                 }
-                // The same before both headings of an upright page.
-                readonly property real before: Math.max(0.5 * Theme.gap, Math.min(2.4 * Theme.gap, parted ? 0.5 * (free + (1 - below) * spacing) : free))
-                // How many of the distances between boxes are between the second heading and its box.
-                readonly property real below: view.upright ? 0.7 : 1
-                // How much further apart stands what is not needed, as far as the page has room.
-                readonly property real further: !view.short || !points.airy ? 0 : view.upright && parted ? Math.max(0, before - spacing)
-                    : Math.max(0, Math.min((view.upright ? 1.3 : points.columns > 1 ? 1 : 0.5) * Theme.gap, free - 1.6 * Theme.gap - (parted ? spacing : 0)))
-                spacing: (points.airy && view.short ? view.used[2] : Theme.textSize <= 1.15 ? 0.5 : 0.4) * Theme.gap
-                // What is still to be ticked, or that there is a choice now.
-                PlainText {
-                    id: waits
-                    objectName: "consent-waits"
-                    FontMetrics {
-                        id: letters
-                        font: waits.font
-                    }
-                    visible: boxes.needs
-                    width: boxes.width
-                    height: Math.ceil(letters.height)
-                    text: view.consent.toGo || view.words["consent-ready"]
-                    onTextChanged: if (visible) Accessible.announce(waits.text, Accessible.Polite)
-                    font { pixelSize: points.airy && view.short ? view.heads : Theme.reading; bold: true }
-                    fontSizeMode: Text.HorizontalFit
-                    minimumPixelSize: Theme.size(24)
-                    verticalAlignment: Text.AlignVCenter
+                readonly property int gaps: grouped ? 1 + made - first : 1
+                // Words about a box that is missed may take of it.
+                readonly property real apart: grouped ? Math.max((view.consent.missing.length > 0 ? 0.25 : 0.5) * Theme.gap, Math.min(1.7 * Theme.gap, free / gaps)) : stack.spacing
+                // How high the card is.
+                readonly property real closes: {
+                    const last = made >= first ? purposes.itemAt(first - 1) : null
+                    return last ? last.y + last.height + view.pad : 0
                 }
-                Repeater {
-                    id: purposes
-                    model: view.consent.purposes
-                    Purpose {
-                        id: purpose
-                        bare: tick.height
-                        required property var modelData
-                        required property int index
-                        // Whether it is the first one below all that are needed.
-                        readonly property bool apart: (view.consent.purposes[index - 1]?.required ?? false)
-                            && view.consent.purposes.slice(index).every(other => !other.required)
-                        width: boxes.width
-                        height: tick.y + tick.height
-                        PlainText {
-                            id: group
-                            objectName: "consent-optional"
-                            visible: purpose.apart && boxes.grouped
-                            y: boxes.further
-                            width: parent.width
-                            height: visible ? waits.height : 0
-                            text: boxes.optional
-                            font: waits.font
-                            fontSizeMode: Text.HorizontalFit
-                            minimumPixelSize: Theme.size(24)
-                            verticalAlignment: Text.AlignVCenter
+
+                Rectangle {
+                    objectName: "consent-card"
+                    visible: boxes.grouped
+                    width: parent.width
+                    height: boxes.closes
+                    radius: Theme.radius
+                    color: Theme.white
+                    border { color: Theme.edge; width: 3 * Theme.unit }
+                    Rectangle {
+                        objectName: "consent-due"
+                        anchors.fill: parent
+                        radius: parent.radius
+                        color: "transparent"
+                        // All edges are dark with high contrast.
+                        border { color: Theme.sea; width: (Theme.highContrast ? 7 : 4) * Theme.unit }
+                        opacity: view.consent.toGo !== "" ? 1 : 0
+                        Behavior on opacity { NumberAnimation { duration: Theme.motion } }
+                    }
+                }
+                Column {
+                    id: stack
+                    width: parent.width
+                    topPadding: boxes.grouped ? view.pad - 0.2 * view.heads : 0
+                    bottomPadding: boxes.grouped && boxes.first === boxes.made ? view.pad : 0
+                    spacing: (points.airy && view.short ? view.used[2] : Theme.textSize <= 1.15 ? 0.5 : 0.4) * Theme.gap
+                    PlainText {
+                        id: heading
+                        objectName: "consent-needed"
+                        FontMetrics {
+                            id: letters
+                            font: heading.font
                         }
-                        TickBox {
-                            id: tick
-                            objectName: "purpose-" + purpose.modelData.id
-                            y: group.visible ? group.y + group.height + boxes.below * boxes.spacing : purpose.apart ? boxes.further : 0
-                            width: parent.width
-                            large: points.airy && view.short
-                            broad: large && view.upright && !view.snug
-                            font.pixelSize: !large ? Theme.reading : Theme.size(view.used[1])
-                            roomy: view.upright
-                            verticalPadding: (large ? view.used[3] : view.short ? 0.25 : 0.45) * Theme.gap
-                            words: purpose.modelData.text
-                            needed: purpose.modelData.required
-                            headed: boxes.grouped
-                            lighter: !purpose.modelData.required && boxes.needs
-                            on: view.consent.ticks.includes(purpose.modelData.id)
-                            note: view.words[purpose.modelData.required ? "consent-required" : "consent-optional"]
-                            agreed: view.words["consent-agreed"]
-                            warning: view.consent.missing.includes(purpose.modelData.id) ? view.words["consent-missing"] : ""
-                            onClicked: view.consent.tick(purpose.modelData.id, !on)
-                        }
-                        Connections {
-                            target: view.consent
-                            function onMissed(missed: string) {
-                                if (missed !== purpose.modelData.id)
-                                    return
-                                tick.forceActiveFocus(Qt.TabFocusReason)
-                                pane.reveal(tick)
+                        visible: boxes.grouped
+                        x: boxes.inset
+                        width: boxes.width - 2 * x
+                        height: Math.ceil(letters.height)
+                        text: view.words["consent-needed"]
+                        font { pixelSize: view.heads; bold: true }
+                        fontSizeMode: Text.HorizontalFit
+                        minimumPixelSize: Theme.size(24)
+                        verticalAlignment: Text.AlignVCenter
+                    }
+                    Repeater {
+                        id: purposes
+                        model: view.consent.purposes
+                        onItemAdded: boxes.made++
+                        onItemRemoved: boxes.made--
+                        Purpose {
+                            id: purpose
+                            bare: tick.height
+                            required property var modelData
+                            required property int index
+                            readonly property bool inside: boxes.grouped && index < boxes.first
+                            // How much further from the one above it than others are.
+                            readonly property real above: !boxes.grouped || inside ? 0 : boxes.apart - stack.spacing + (index === boxes.first ? view.pad : 0)
+                            width: boxes.width
+                            height: tick.y + tick.height
+                            TickBox {
+                                id: tick
+                                objectName: "purpose-" + purpose.modelData.id
+                                x: purpose.inside ? boxes.inset : 0
+                                y: purpose.above
+                                width: parent.width - 2 * x
+                                large: points.airy && view.short
+                                broad: large && view.upright && !view.snug
+                                // All marks stand below each other.
+                                horizontalPadding: (large ? 28 : 17) * Theme.unit + (boxes.grouped && !purpose.inside ? boxes.inset : 0)
+                                font.pixelSize: !large ? Theme.reading : Theme.size(view.used[1])
+                                roomy: view.upright
+                                verticalPadding: (large ? view.used[3] : view.short ? 0.25 : 0.45) * Theme.gap
+                                words: purpose.modelData.text
+                                needed: purpose.modelData.required
+                                headed: purpose.inside
+                                tagged: boxes.grouped && !purpose.inside
+                                lighter: !purpose.modelData.required && boxes.needs
+                                on: view.consent.ticks.includes(purpose.modelData.id)
+                                note: tagged ? boxes.optional : view.words[purpose.modelData.required ? "consent-required" : "consent-optional"]
+                                agreed: tagged ? "" : view.words["consent-agreed"]
+                                warning: view.consent.missing.includes(purpose.modelData.id) ? view.words["consent-missing"] : ""
+                                // The first one of a card says so for all of them.
+                                terse: purpose.inside && view.consent.missing[0] !== purpose.modelData.id
+                                onClicked: view.consent.tick(purpose.modelData.id, !on)
+                            }
+                            Connections {
+                                target: view.consent
+                                function onMissed(missed: string) {
+                                    if (missed !== purpose.modelData.id)
+                                        return
+                                    tick.forceActiveFocus(Qt.TabFocusReason)
+                                    pane.reveal(tick)
+                                }
                             }
                         }
                     }

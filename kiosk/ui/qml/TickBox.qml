@@ -11,11 +11,15 @@ Choosable {
     property bool needed: false
     // Whether a heading above it says so instead; the box still tells it to those who cannot see it.
     property bool headed: false
+    // Whether that stands above its words.
+    property bool tagged: false
     // Whether it may be left out, beside others that are needed.
     property bool lighter: false
     // What stands there instead, once it is ticked.
     property string agreed: ""
     property string warning: ""
+    // Whether its edge alone shows that.
+    property bool terse: false
     // Whether a large one is higher than its mark on a page with height for it.
     property bool roomy: false
     // On an upright page with much height.
@@ -58,12 +62,14 @@ Choosable {
             font { family: tag.font.family; pixelSize: tag.font.pixelSize; bold: true }
             text: box.agreed
         }
-        readonly property bool noted: box.note !== "" && box.warning === "" && !box.headed
+        readonly property bool noted: box.note !== "" && box.warning === "" && !box.headed && !box.tagged
         // How far the words keep from it.
         readonly property real clear: (box.large ? 2.5 : 1) * Theme.gap
         readonly property bool beside: noted && !box.broad && noteWidth + clear < 0.4 * room
         readonly property bool below: noted && box.broad && noteWidth <= room
-        implicitHeight: Math.max(box.large && box.roomy ? 76 * Theme.unit : mark.height, told.height)
+        // A word that it is missed takes from the air above and below the words first: what is below moves little.
+        readonly property real yields: box.warning === "" || box.terse ? 0 : Math.min(warned.height, Math.max(0, 2 * box.verticalPadding - 4 * Theme.unit))
+        implicitHeight: Math.max(box.large && box.roomy ? 76 * Theme.unit : mark.height, told.height - yields)
         implicitWidth: mark.width
         Rectangle {
             id: mark
@@ -94,6 +100,15 @@ Choosable {
             x: Theme.across(mark.width + parts.after, width, parts.width)
             y: (parts.height - height) / 2
             width: parts.room - (parts.beside ? parts.noteWidth + parts.clear : 0)
+            PlainText {
+                objectName: "tag"
+                width: parent.width
+                visible: box.tagged
+                text: box.note
+                font.pixelSize: Theme.size(28)
+                color: Theme.faintInk
+                Accessible.ignored: true
+            }
             Balanced {
                 width: parent.width
                 text: box.words
@@ -102,10 +117,11 @@ Choosable {
                 Accessible.ignored: true
             }
             Text {
+                id: warned
                 textFormat: Text.PlainText
                 width: parent.width
                 visible: text !== ""
-                text: box.warning || (box.headed || parts.beside || parts.below ? "" : parts.note)
+                text: box.warning && !box.terse ? box.warning : (box.headed || box.tagged || parts.beside || parts.below ? "" : parts.note)
                 horizontalAlignment: LayoutMirroring.enabled ? Text.AlignLeft : undefined
                 font { pixelSize: Theme.small; bold: box.warning !== "" || box.needed }
                 wrapMode: Text.Wrap

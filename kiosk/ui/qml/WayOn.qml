@@ -21,8 +21,21 @@ FocusScope {
     property bool fills: false
     // What the other way on says, such as a no; and what the two are called.
     property string other: ""
-    // Whether both are alike: as large, and both filled, so that the page favours neither.
+    // Whether both are alike: as large, and with the same look, so that the page favours neither.
     property bool even: false
+    // Whether they are not filled yet, and what follows from each, in smaller letters below its words.
+    property bool hollow: false
+    property string follows: ""
+    property string otherFollows: ""
+    readonly property bool lined: follows !== "" && otherFollows !== ""
+    // The same letters for both, as large as leaves each in one line.
+    readonly property real lineRoom: (halved ? half : level ? share : pile) - 2 * Theme.gap
+    readonly property real lineSize: {
+        const most = Theme.size(fills ? 30 : 29)
+        return Math.max(24 * Theme.unit, Math.min(most, most * 0.97 * lineRoom / Math.max(1, ...[follows, otherFollows].map(text => widths.plain(text, most)))))
+    }
+    // On how many lines they stand where even small ones are too long for that.
+    readonly property int lineCount: Math.max(...[follows, otherFollows].map(text => widths.plainLines(text, lineSize, lineRoom)))
     property string name: "continue"
     property string otherName: ""
     // Two that are alike stand beside each other with the largest letters that leave each in one line on a wide page, and in
@@ -55,17 +68,19 @@ FocusScope {
     readonly property bool level: !fills && abreast !== undefined
     // Where their words are too long for that, one stands above the other.
     readonly property bool beside: even && goes && refuses ? level : wish <= width
-    readonly property real share: abreast?.[1] === 2 ? spread(letters)
-        : Math.max(go.least, Math.ceil(Math.max(widths.bold(label, letters), widths.bold(other, letters))) + 2 + 2 * padding)
+    readonly property real share: abreast?.[1] === 2 ? spread(letters) : lined ? Math.min(spread(letters), Math.max(470 * Theme.unit, named))
+        : Math.max(go.least, named)
+    // How wide the words of either need them.
+    readonly property real named: Math.ceil(Math.max(widths.bold(label, letters), widths.bold(other, letters))) + 2 + 2 * padding
     readonly property real each: halved ? half : spread(letters)
     // Large texts set both one above the other on a wide page as well, and there too they are as wide as each other.
     readonly property bool stacked: even && !fills && !beside && goes && refuses
     readonly property real pile: Math.min(width - (returns ? back.width + Theme.gap : 0), Math.max(go.wish, no.wish))
-    readonly property real step: Math.round((fills && Theme.textSize <= 1.15 ? 1.1 : 0.5) * Theme.gap)
+    readonly property real step: Math.round((fills && Theme.textSize <= 1.15 ? halved ? 1.9 : 1.1 : 0.5) * Theme.gap)
     // How far they reach above their place.
     readonly property real over: Math.max(0, -go.y)
     // As high without a way on, so that the way back stands at the same place.
-    readonly property real tallest: level ? Math.round(go.implicitHeight) : !goes && !returns ? 0 : Math.max(goes ? go.height : Math.round(go.implicitHeight), returns ? back.height : 0)
+    readonly property real tallest: level ? (lined ? tall : Math.round(go.implicitHeight)) : !goes && !returns ? 0 : Math.max(goes ? go.height : Math.round(go.implicitHeight), returns ? back.height : 0)
 
     // Where there are too many for one row: whether the way back stands beside the way on, and leaves the other one as much
     // width if both are alike.
@@ -122,6 +137,11 @@ FocusScope {
         height: Math.round(ways.even && ways.refuses ? Math.max(implicitHeight, no.implicitHeight) : implicitHeight)
         corner: ways.abreast ? no.topPadding + no.font.pixelSize : Infinity
         quiet: ways.quiet
+        hollow: ways.hollow
+        under: ways.lined ? ways.follows : ""
+        underSize: ways.lineSize
+        underLines: ways.lineCount
+        verticalPadding: ways.lined ? no.verticalPadding : (tall - Math.ceil(line)) / 2
         waits: ways.waits
         note: ways.note
         Accessible.description: ways.reason
@@ -143,9 +163,14 @@ FocusScope {
         y: ways.level ? go.y : 0
         height: ways.even ? go.height : implicitHeight
         quiet: !ways.even
+        hollow: ways.hollow
+        under: ways.lined ? ways.otherFollows : ""
+        underSize: ways.lineSize
+        underLines: ways.lineCount
+        Accessible.description: ways.otherFollows
         horizontalPadding: ways.abreast ? ways.aside(words) : ways.even ? ways.padding : 44 * Theme.unit
         // Two lines need less air above and below them.
-        verticalPadding: ways.abreast && ways.aside(words) > ways.padding ? (ways.halved ? 14 : 10) * Theme.unit : (tall - Math.ceil(line)) / 2
+        verticalPadding: ways.lined ? (ways.halved ? 16 : 9) * Theme.unit : ways.abreast && ways.aside(words) > ways.padding ? (ways.halved ? 14 : 10) * Theme.unit : (tall - Math.ceil(line)) / 2
         words: ways.other
         onClicked: ways.turnedDown()
     }

@@ -114,11 +114,10 @@ class ConsentScreen(QObject):
 
     @Property(str, notify=marked)
     def toGo(self) -> str:  # noqa: N802 - QML's convention
-        """Return what is still to be ticked to take part; empty if nothing is."""
+        """Return how many boxes are still to be ticked to take part; empty if none is."""
         if self._page is None or not self.needed:
             return ""
-        message = "consent-to-go" if self._page.required & self._ticks else "consent-waits"
-        return self._catalogue.text(message, number=len(self.needed))
+        return self._catalogue.text("consent-to-go", number=len(self.needed))
 
     @Slot(str, bool)
     def tick(self, purpose: str, ticked: bool) -> None:  # noqa: FBT001 - QML gives no names

@@ -36,22 +36,21 @@ consent-required = nötig
 consent-optional = wie du möchtest
 consent-agreed = einverstanden
 consent-missing = Bitte kreuze das an, wenn du teilnehmen möchtest.
-# Above the boxes that are needed, as long as none of them has a tick.
-consent-waits =
-    { $number ->
-        [one] Kreuze zur Teilnahme das nötige Kästchen an
-       *[other] Kreuze zur Teilnahme die { $number } nötigen Kästchen an
-    }
-# In its place, as long as only some of them have one.
+# Over the boxes that are needed.
+consent-needed = Nötig zur Teilnahme
+# Below the words of consent-agree, as long as some of them have no tick.
 consent-to-go =
     { $number ->
-        [one] Kreuze zur Teilnahme noch ein Kästchen an
-       *[other] Kreuze zur Teilnahme noch { $number } Kästchen an
+        [one] Noch { $number } Kästchen
+       *[other] Noch { $number } Kästchen
     }
-# In its place, once all of them have one. It must favour neither answer.
+# Told to those who cannot see it once all of them have one. It must favour neither answer.
 consent-ready = Mehr ist nicht nötig. Wähle jetzt unten.
 consent-agree = Ich nehme teil
-consent-decline = Spielen ohne Teilnahme
+# What follows, below each answer. Both lines are about as long.
+consent-agree-line = Deine Daten werden gespeichert.
+consent-decline = Nur spielen
+consent-decline-line = Nichts über dich wird gespeichert.
 consent-more = Alles lesen
 consent-less = Weniger zeigen
 
