@@ -15,6 +15,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Self
 
+from tests.patience import PATIENCE_S, Program, limited
+
 ROOT = Path(__file__).parents[1]
 
 LOADED = (
@@ -116,14 +118,15 @@ class LoadedProgram:
     def __init__(self, *modules: str, first: str = "", python: str | Path = sys.executable) -> None:
         """Load further modules, and run what is to be done once before all commands."""
         command = [python, "-c", SERVER.replace("@FIRST@", first), *LOADED, *modules]
-        self._server = subprocess.Popen(command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self._server = Program(command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
         # It ends with its input.
-        self._server.communicate()
+        with limited(self._server):
+            self._server.communicate()
 
     def run(
         self,
@@ -145,11 +148,10 @@ class LoadedProgram:
                 "program": program,
                 "longest_s": LONGEST_S,
             }
-            assert self._server.stdin is not None
-            assert self._server.stdout is not None
-            self._server.stdin.write(json.dumps(job) + "\n")
-            self._server.stdin.flush()
-            code = int(self._server.stdout.readline())
+            with limited(self._server, LONGEST_S + PATIENCE_S):
+                self._server.stdin.write(json.dumps(job) + "\n")
+                self._server.stdin.flush()
+                code = int(self._server.stdout.readline())
             return subprocess.CompletedProcess(
                 list(arguments), code, said["out"].read_text("utf-8"), said["err"].read_text("utf-8")
             )

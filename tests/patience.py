@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import IO, Any
 
 import psutil
+import pytest
 
 PATIENCE_S = 300.0
 """Seconds; nothing takes as long, on a busy machine neither, unless it never ends."""
@@ -38,6 +39,16 @@ def started(command: Sequence[str | Path], *, within_s: float = PATIENCE_S, **op
 
 
 @contextmanager
+def serving(command: Sequence[str | Path], **options: Any) -> Iterator[Program]:
+    """Start a program that is to answer until this is over, and then end it; put ``limited`` around each answer."""
+    with Program(command, **options) as program:
+        try:
+            yield program
+        finally:
+            end_all(program)
+
+
+@contextmanager
 def limited(program: subprocess.Popen[Any], within_s: float = PATIENCE_S) -> Iterator[None]:
     """Fail if what is asked of a program in here is not done in time, and end the program.
 
@@ -54,7 +65,7 @@ def limited(program: subprocess.Popen[Any], within_s: float = PATIENCE_S) -> Ite
     timer.start()
     try:
         yield
-    except Exception as failure:
+    except (Exception, pytest.fail.Exception) as failure:
         if is_late.is_set():
             raise AssertionError(_late(program, within_s)) from failure
         raise
@@ -70,8 +81,11 @@ def _late(program: subprocess.Popen[Any], within_s: float) -> str:
 
 def end_all(program: subprocess.Popen[Any]) -> None:
     """End a program at once, and all that it has started and that may hold its output."""
+    children = []
     with suppress(psutil.NoSuchProcess):
-        for child in psutil.Process(program.pid).children(recursive=True):
-            with suppress(psutil.NoSuchProcess):
-                child.kill()
+        children = psutil.Process(program.pid).children(recursive=True)
+    # First, so that it starts none in their place and tells nothing of their end.
     program.kill()
+    for child in children:
+        with suppress(psutil.NoSuchProcess):
+            child.kill()

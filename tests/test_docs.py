@@ -20,6 +20,7 @@ from kiosk.cli.main import recollect
 from kiosk.config import Settings
 from kiosk.experiment.transitions import diagram
 from tests.packaging.scripts import load
+from tests.patience import PATIENCE_S
 
 ROOT = Path(__file__).parent.parent
 PAGES = [
@@ -183,7 +184,7 @@ def test_the_pages_make_a_site_without_a_broken_link_and_without_a_network(tmp_p
     pytest.importorskip("mkdocs")
     settings = ROOT / "packaging" / "mkdocs.yml"
     command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "-f", str(settings), "-d", str(tmp_path)]
-    built = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    built = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=PATIENCE_S)
     assert (built.returncode, built.stdout) == (0, ""), built.stderr
     for page in tmp_path.rglob("*.html"):
         loaded = re.findall(r"<(?:script|link|img)[^>]*(?:src|href)=\"?(https?:[^\" >]*)", page.read_text("utf-8"))

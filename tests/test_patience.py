@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 import subprocess
 import sys
+from collections.abc import Iterator
+from pathlib import Path
 
 import psutil
 import pytest
@@ -69,3 +72,42 @@ def test_a_program_that_has_ended_can_be_ended() -> None:
         program.wait()
         end_all(program)
     assert program.returncode == 0
+
+
+def without_a_limit(tree: ast.AST) -> Iterator[int]:
+    """Yield the lines of a module that start a program and may wait for it without an end."""
+    for node in ast.walk(tree):
+        match node:
+            case ast.Call(func=ast.Attribute(value=ast.Name("subprocess"), attr=attr), keywords=given):
+                if attr in WAITING and "timeout" not in {each.arg for each in given}:
+                    yield node.lineno
+            case ast.With(items=[*items]):
+                opened = [each.context_expr.func for each in items if isinstance(each.context_expr, ast.Call)]
+                names = {each.attr if isinstance(each, ast.Attribute) else ast.unparse(each) for each in opened}
+                if "Popen" in names and "limited" not in names:
+                    yield node.lineno
+
+
+WAITING = {"run", "call", "check_call", "check_output"}
+
+
+@pytest.mark.parametrize(
+    ("line", "found"),
+    [
+        ("subprocess.run(command, check=True)", [1]),
+        ("subprocess.check_output(command, timeout=3)", []),
+        ("with subprocess.Popen(command) as program: pass", [1]),
+        ("with Popen(command) as program, open(file): pass", [1]),
+        ("with subprocess.Popen(command) as program, limited(program): pass", []),
+        ("with started(command) as program: pass", []),
+    ],
+)
+def test_a_wait_without_a_limit_is_found(line: str, found: list[int]) -> None:
+    assert list(without_a_limit(ast.parse(line))) == found
+
+
+def test_no_test_waits_for_a_program_without_a_limit() -> None:
+    here = Path(__file__).parent
+    trees = {file: ast.parse(file.read_text("utf-8")) for file in here.rglob("*.py")}
+    found = [f"{file.relative_to(here)}:{line}" for file, tree in trees.items() for line in without_a_limit(tree)]
+    assert found == []

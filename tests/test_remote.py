@@ -5,7 +5,6 @@ from __future__ import annotations
 import getpass
 import json
 import shutil
-import signal
 import socket
 import subprocess
 import sys
@@ -26,6 +25,7 @@ from kiosk.experiment.alarms import AlarmKind
 from kiosk.experiment.booth_status import CLOSED, AlarmStatus, PartStatus, utc
 from kiosk.remote import HUNG_S, LONGEST, LOST, QUEUED, BoothWatch, SeenBooth, StatusPublisher, booth_name, served
 from tests.analysis.chromium import opened_browser
+from tests.patience import serving
 from tests.samples import PLAYING as STATUS
 
 PATIENCE_S = 30.0
@@ -88,7 +88,7 @@ class Broker:
         """End, as a network that is gone."""
         if self._process is not None:
             self._process.terminate()
-            self._process.wait()
+            self._process.wait(PATIENCE_S)
 
     def _answers(self) -> bool:
         with socket.socket() as asked:
@@ -150,10 +150,8 @@ def test_who_comes_later_sees_the_last_status(remote: Remote, publisher: StatusP
 
 def test_a_kiosk_that_is_killed_is_lost_within_two_seconds(broker: Broker) -> None:
     watch = BoothWatch(Remote(mqtt=broker.address))
-    kiosk = subprocess.Popen([sys.executable, "-c", KIOSK, broker.address, "killed"])
-    until(lambda: states(watch).get("killed") == "well")
-    kiosk.send_signal(signal.SIGKILL)
-    kiosk.wait()
+    with serving([sys.executable, "-c", KIOSK, broker.address, "killed"]):
+        until(lambda: states(watch).get("killed") == "well")
     assert until(lambda: states(watch)["killed"] == "lost") < 2
     watch.close()
 
@@ -222,7 +220,7 @@ def made_certificates(folder: Path) -> None:
         "x509 -req -in booth.csr -CA ca.crt -CAkey ca.key -days 2 -out booth.crt",
     ):
         (folder / "san").write_text("subjectAltName=DNS:localhost,IP:127.0.0.1", "utf-8")
-        subprocess.run([openssl, *line.split()], cwd=folder, check=True, capture_output=True)
+        subprocess.run([openssl, *line.split()], cwd=folder, check=True, capture_output=True, timeout=PATIENCE_S)
 
 
 @pytest.fixture(scope="module")
@@ -236,7 +234,9 @@ def secured(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Broker, 
     program = shutil.which("mosquitto_passwd")
     if program is None:
         pytest.skip("mosquitto_passwd is not installed")
-    subprocess.run([program, "-b", "-c", str(passwords), "lab", "of the lab"], check=True, capture_output=True)
+    subprocess.run(
+        [program, "-b", "-c", str(passwords), "lab", "of the lab"], check=True, capture_output=True, timeout=PATIENCE_S
+    )
     passwords.chmod(0o644)
     other = free_port()
     tls = f"cafile {folder}/ca.crt\ncertfile {folder}/broker.crt\nkeyfile {folder}/broker.key"

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.patience import PATIENCE_S
 from tests.shared import made_once
 from tests.test_prose import statements
 
@@ -240,7 +241,9 @@ def loaded(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[str]]:
                 names[part].append(name)
         given = json.dumps([names, {part: sorted(known) for part, known in PACKAGES.items()}])
         command = [sys.executable, "-c", LOADER]
-        done = subprocess.run(command, cwd=PACKAGE.parent, input=given, capture_output=True, text=True, check=False)
+        done = subprocess.run(
+            command, cwd=PACKAGE.parent, input=given, capture_output=True, text=True, check=False, timeout=PATIENCE_S
+        )
         assert (done.returncode, done.stderr) == (0, "")
         (folder / "loaded.json").write_text(done.stdout, "utf-8")
 
@@ -270,7 +273,12 @@ def test_a_part_loads_no_library_that_it_may_not_import(part: str, loaded: dict[
 def test_the_way_to_the_first_screen_loads_nothing_that_is_slow_and_not_needed_yet() -> None:
     program = "import sys, kiosk.ui.app, kiosk.store.recorder; print(sorted(sys.modules))"
     done = subprocess.run(
-        [sys.executable, "-c", program], cwd=PACKAGE.parent, capture_output=True, text=True, check=False
+        [sys.executable, "-c", program],
+        cwd=PACKAGE.parent,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=PATIENCE_S,
     )
     assert done.returncode == 0, done.stderr
     loaded = set(ast.literal_eval(done.stdout))

@@ -7,7 +7,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import nullcontext, suppress
+from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 from queue import Empty, Queue
@@ -223,13 +223,20 @@ class _Child:
         )
         self._lines: Queue[str | None] = Queue()
         self._errors: list[str] = []
-        ears = ((self._listen, self._child.stdout), (self._note, self._child.stderr))
-        self._ears = [Thread(target=hear, args=(stream,), daemon=True) for hear, stream in ears]
-        for each in self._ears:
+        self._jobs = json.dumps(list(jobs))
+        # The jobs too: writing more than a pipe takes waits until the process reads, which may be never.
+        ends = (
+            (self._listen, self._child.stdout),
+            (self._note, self._child.stderr),
+            (self._ask, self._child.stdin),
+        )
+        self._threads = [Thread(target=use, args=(stream,), daemon=True) for use, stream in ends]
+        for each in self._threads:
             each.start()
-        with suppress(OSError), self._child.stdin or nullcontext() as names:
-            if names is not None:
-                names.write(json.dumps(list(jobs)))
+
+    def _ask(self, stream: IO[str]) -> None:
+        with suppress(OSError), stream:
+            stream.write(self._jobs)
 
     def _listen(self, stream: IO[str]) -> None:
         with stream:
@@ -259,7 +266,7 @@ class _Child:
         """End it, and wait until it has."""
         self._child.kill()
         self._child.wait()
-        for each in self._ears:
+        for each in self._threads:
             each.join()
 
 

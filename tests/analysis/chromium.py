@@ -15,6 +15,8 @@ from typing import Any
 import pytest
 from websockets.sync.client import ClientConnection, connect
 
+from tests.patience import serving
+
 PATIENCE_S = 120
 
 
@@ -77,12 +79,8 @@ def opened_browser(folder: Path) -> Iterator[Browser]:
     if program is None:
         pytest.skip("Chromium is not installed")
     words = ["--headless=new", "--no-sandbox", "--disable-gpu", "--remote-debugging-port=0"]
-    started = subprocess.Popen(
-        [program, *words, f"--user-data-dir={folder}", "about:blank"],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
-    try:
+    command = [program, *words, f"--user-data-dir={folder}", "about:blank"]
+    with serving(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as started:
         place = folder / "DevToolsActivePort"
         deadline = time.monotonic() + PATIENCE_S
         while not (place.exists() and len(place.read_text().splitlines()) > 1):
@@ -94,6 +92,5 @@ def opened_browser(folder: Path) -> Iterator[Browser]:
             browser = Browser(socket)
             yield browser
             browser.ask("Page.close")
-    finally:
         started.terminate()
-        started.wait()
+        started.wait(PATIENCE_S)

@@ -28,6 +28,7 @@ from kiosk.export.layouts import file_of
 from kiosk.store.plans import frozen_plans
 from kiosk.store.verify import verify
 from kiosk.training.simulated_players import PopulationPlayer
+from tests.patience import started
 
 
 @pytest.fixture
@@ -196,8 +197,7 @@ with LocalCluster(
 def running_cluster() -> Iterator[str]:
     """Provide a Dask scheduler of this machine with two workers; its address."""
     command = [sys.executable, "-c", CLUSTER]
-    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as cluster:
-        assert cluster.stdout is not None
+    with started(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as cluster:
         yield cluster.stdout.readline().strip()
         cluster.communicate()
 

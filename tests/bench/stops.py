@@ -6,12 +6,13 @@ import os
 import subprocess
 import sys
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from pathlib import Path
 from select import select
 from time import monotonic
 
 from kiosk.units import MS_PER_SECOND
+from tests.patience import PATIENCE_S, Program, serving
 
 NAP_MS = 3
 """How long the program sleeps that does nothing else."""
@@ -49,13 +50,13 @@ def watched_stops() -> Iterator[Stops]:
         sleepers = [running.enter_context(_sleeper(processor)) for processor in _processors()]
         yield found
         for sleeper in sleepers:
-            told, _ = sleeper.communicate()
+            told, _ = sleeper.communicate(timeout=PATIENCE_S)
             found += ((float(since), float(until)) for since, until in map(str.split, told.splitlines()))
 
 
-def _sleeper(processor: int) -> subprocess.Popen[str]:
+def _sleeper(processor: int) -> AbstractContextManager[Program]:
     command = [sys.executable, "-m", __name__, str(processor)]
-    return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    return serving(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
 
 def _processors() -> list[int]:

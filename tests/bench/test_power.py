@@ -20,6 +20,7 @@ import pytest
 from kiosk.analysis import power
 from kiosk.analysis.plan import TEMPLATE
 from tests.analysis.test_plan import job
+from tests.patience import serving
 
 STUDIES = 1_000
 
@@ -57,11 +58,9 @@ def running_cluster(folder: Path, workers: int) -> Iterator[str]:
     worker = [*here, "distributed.cli.dask_worker", "--no-dashboard", "--nthreads", "1", "--no-nanny"]
     with ExitStack() as stack:
         for words in (scheduler, *[worker] * workers):
-            started = subprocess.Popen(
-                [*words, "--scheduler-file", str(address)], cwd=folder, stderr=subprocess.DEVNULL
+            stack.enter_context(
+                serving([*words, "--scheduler-file", str(address)], cwd=folder, stderr=subprocess.DEVNULL)
             )
-            stack.callback(started.wait)
-            stack.callback(started.terminate)
             deadline = time.monotonic() + 180
             while not address.exists() and time.monotonic() < deadline:
                 time.sleep(0.05)

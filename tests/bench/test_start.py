@@ -27,6 +27,7 @@ from kiosk.cli.main import BAD_INPUT
 from kiosk.sd_notify import NotifySocketListener
 from kiosk.units import MS_PER_SECOND
 from tests.bench.percentiles import tell_percentiles
+from tests.patience import limited, serving
 
 OFFSCREEN = {"QT_QPA_PLATFORM": "offscreen", "QT_QUICK_BACKEND": "software", "QSG_RENDER_LOOP": "basic"}
 PACKAGE = Path(kiosk.__file__).parent
@@ -138,7 +139,7 @@ class Cost:
 def whole(command: list[str]) -> Cost:
     """Run a program to its end; a command that finds nothing is as good as another."""
     began = time.monotonic()
-    with subprocess.Popen(command, env=os.environ | OFFSCREEN, stdout=subprocess.DEVNULL) as child:
+    with subprocess.Popen(command, env=os.environ | OFFSCREEN, stdout=subprocess.DEVNULL) as child, limited(child):
         _, code, used = os.wait4(child.pid, 0)
         child.returncode = os.waitstatus_to_exitcode(code)
     assert child.returncode in {0, BAD_INPUT}, command
@@ -150,12 +151,11 @@ def until_ready(folder: Path) -> Cost:
     listener = NotifySocketListener(folder)
     began = time.monotonic()
     command = program("run", "--data", str(folder / "data"))
-    with subprocess.Popen(
-        command, env=os.environ | OFFSCREEN | listener.environment, stdout=subprocess.DEVNULL
-    ) as child:
+    with serving(command, env=os.environ | OFFSCREEN | listener.environment, stdout=subprocess.DEVNULL) as child:
         notice = listener.hear(LONG_S)
         used, waited = psutil.Process(child.pid).cpu_times(), time.monotonic() - began
         child.terminate()
+        child.wait(LONG_S)
     listener.close()
     assert "READY" in notice
     return Cost(used.user + used.system, waited)

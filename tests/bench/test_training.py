@@ -29,6 +29,7 @@ from kiosk.training.rewards import Reward
 from kiosk.training.simulated_players import MemoryPlayer
 from kiosk.training.simulation import TALLY, lay, play_all, simulate_games
 from kiosk.training.vectorised_game import COMPILED, NATIVE, RANDOM, floats, gate_plan, ints
+from tests.patience import PATIENCE_S
 from tests.training.reference import WithMemory, learn, play
 
 Benchmark = Any
@@ -75,7 +76,9 @@ def test_games_of_the_reference(benchmark: Benchmark) -> None:
 def test_games_in_c(benchmark: Benchmark, tmp_path: Path) -> None:
     """The same games, number for number, in plain C with -O2."""
     source, library = Path(__file__).with_name("games.c"), tmp_path / "games.so"
-    subprocess.run([str(COMPILER), "-O2", "-shared", "-fPIC", "-o", str(library), str(source)], check=True)
+    subprocess.run(
+        [str(COMPILER), "-O2", "-shared", "-fPIC", "-o", str(library), str(source)], check=True, timeout=PATIENCE_S
+    )
     policy, forgetting = QTable.named("default"), 0.2
     plan = gate_plan(policy.gate, TargetRule.MOST_FLIPPED, policy.actions)
     table = lay(MemoryPlayer((forgetting, forgetting)), plan, 1)
@@ -139,7 +142,7 @@ def test_from_nothing_to_the_default_table(benchmark: Benchmark, tmp_path: Path,
     command = [sys.executable, "-c", program, str(tmp_path), "train", "--name", "default", "--out", str(out)]
 
     def train() -> None:
-        subprocess.run(command, check=True, capture_output=True, env=environment)
+        subprocess.run(command, check=True, capture_output=True, env=environment, timeout=PATIENCE_S)
 
     if "before" in how:
         train()

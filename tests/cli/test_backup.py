@@ -21,6 +21,7 @@ from kiosk import UserInputError, program
 from kiosk.cli.main import recollect
 from kiosk.store.database import FILE
 from tests.export.visitors import store, visitor
+from tests.patience import started
 
 PATIENCE_S = 60
 
@@ -67,7 +68,7 @@ def test_a_verified_copy_is_browsed_on_this_machine_alone_and_removed_at_the_end
     command = program("browse", "--data", str(data), "--port", str(port))
     environment = os.environ | {"TMPDIR": str(tmp_path)}
     before = (data / FILE).read_bytes()
-    with subprocess.Popen(
+    with started(
         command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True
     ) as browsing:
         deadline = monotonic() + PATIENCE_S

@@ -21,6 +21,7 @@ from kiosk.cli.log import LOG, LOG_BYTES
 from kiosk.cli.main import main
 from kiosk.preflight import Check, CheckResult, Severity
 from kiosk.store.recorder import Recorder
+from tests.patience import PATIENCE_S
 
 GOOD, WARNING, BAD = (
     CheckResult.ok("a", "fine"),
@@ -225,7 +226,7 @@ def test_a_look_that_hangs_is_left_behind_and_the_others_keep_their_order() -> N
     hang = threading.Event()
 
     def hanging() -> Iterator[CheckResult]:
-        hang.wait()
+        hang.wait(PATIENCE_S)
         yield GOOD
 
     probes = [

@@ -14,6 +14,7 @@ import pytest
 from kiosk.assistance.policy import ActionSpec, FlipInMove, Gate
 from kiosk.cli.main import main
 from kiosk.game import Board, Concentration
+from tests.patience import PATIENCE_S
 from tests.samples import ANIMALS, CATALOGUES, always
 
 Case = dict[str, Any]
@@ -303,6 +304,6 @@ def test_it_is_a_command_of_recollect(tmp_path: Path, case: Case) -> None:
     file = tmp_path / "case.json"
     file.write_text(json.dumps(case), "utf-8")
     command = [sys.executable, "-m", "kiosk", "explain", str(file), "--json"]
-    done = subprocess.run(command, capture_output=True, text=True, check=True, encoding="utf-8")
+    done = subprocess.run(command, capture_output=True, text=True, check=True, encoding="utf-8", timeout=PATIENCE_S)
     assert json.loads(done.stdout)["action"] == "sug_row"
     assert done.stderr == ""

@@ -18,6 +18,7 @@ from click.testing import CliRunner
 from kiosk import StorageError, UserInputError
 from kiosk.cli import main
 from kiosk.cli.guide import GUIDES, Guide, as_epilog, every_command
+from tests.patience import PATIENCE_S
 
 DOCS = Path(__file__).parents[2] / "docs"
 
@@ -152,7 +153,9 @@ def test_the_help_loads_no_command_and_no_large_library() -> None:
         "recollect(['--help'], standalone_mode=False)\n"
         "print(*sys.modules)"
     )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True, timeout=PATIENCE_S
+    )
     loaded = set(done.stdout.splitlines()[-1].split())
     assert {name for name in loaded if name.startswith("kiosk")} == {
         "kiosk",

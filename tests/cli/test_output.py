@@ -21,6 +21,7 @@ from kiosk.experiment.events import RobotDisconnected, SessionStarted
 from kiosk.experiment.outcomes import SessionKind
 from kiosk.store.day_report import DayReport
 from kiosk.store.recorder import Provenance, Recorder
+from tests.patience import PATIENCE_S
 from tests.samples import plan
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="pipes and devices as Unix has them")
@@ -85,7 +86,9 @@ def test_what_the_terminal_has_no_character_for_is_printed_all_the_same(
 
 def test_a_refusal_is_printed_where_the_system_has_no_characters_but_ascii(data: Path, study: Path) -> None:
     environment = os.environ | {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0", "LC_ALL": "C"}
-    done = subprocess.run(command("a refusal", data, study), env=environment, capture_output=True, check=False)
+    done = subprocess.run(
+        command("a refusal", data, study), env=environment, capture_output=True, check=False, timeout=PATIENCE_S
+    )
     assert (done.returncode, b"Traceback" in done.stderr) == (2, False)
 
 
@@ -93,7 +96,9 @@ def test_a_refusal_is_printed_where_the_system_has_no_characters_but_ascii(data:
 def test_a_reader_who_goes_away_leaves_no_traceback(name: str, data: Path, study: Path) -> None:
     reads, writes = os.pipe()
     os.close(reads)
-    done = subprocess.run(command(name, data, study), stdout=writes, stderr=subprocess.PIPE, text=True, check=False)
+    done = subprocess.run(
+        command(name, data, study), stdout=writes, stderr=subprocess.PIPE, text=True, check=False, timeout=PATIENCE_S
+    )
     os.close(writes)
     assert done.stderr == ""
 
@@ -102,7 +107,9 @@ def test_a_reader_who_goes_away_leaves_no_traceback(name: str, data: Path, study
 @pytest.mark.parametrize("name", ["sessions", "events", "help"])
 def test_output_that_finds_no_room_ends_in_a_sentence(name: str, data: Path, study: Path) -> None:
     with Path("/dev/full").open("w", encoding="utf-8") as full:
-        done = subprocess.run(command(name, data, study), stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+        done = subprocess.run(
+            command(name, data, study), stdout=full, stderr=subprocess.PIPE, text=True, check=False, timeout=PATIENCE_S
+        )
     assert done.returncode == 1
     assert done.stderr == f"recollect: {DISK_FULL}\n"
 
@@ -188,6 +195,10 @@ def test_a_line_of_events_sessions_and_the_day_holds_whatever_the_record_holds(
 def test_a_path_that_is_no_text_is_told_all_the_same(tmp_path: Path) -> None:
     strange = os.fsencode(tmp_path) + b"/\xe9"
     done = subprocess.run(
-        [*map(os.fsencode, program("sessions", "--data")), strange], capture_output=True, text=True, check=False
+        [*map(os.fsencode, program("sessions", "--data")), strange],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=PATIENCE_S,
     )
     assert (done.returncode, done.stderr) == (2, f"recollect: there is no database in {tmp_path}/\\udce9\n")

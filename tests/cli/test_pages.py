@@ -28,6 +28,7 @@ from tests.cli.test_readme import DECK, LEFT_AT_ONCE, ONE_LAYOUT, rows
 from tests.experiment.driver import Driver, at_random
 from tests.export.visitors import store, visitor
 from tests.forked import ANALYSES, CHECKED, LEAST_SPOKEN, PLAYED, PROGRAM, LoadedProgram
+from tests.patience import PATIENCE_S
 from tests.robots.furhat_fake import FurhatFake
 from tests.samples import ANIMALS, WITH_PIN, plan
 from tests.store.visitors import new_code
@@ -272,7 +273,7 @@ def _make_key(home: Path, signers: Path) -> None:
         return
     key = home / ".ssh" / "id_ed25519"
     key.parent.mkdir()
-    subprocess.run(["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", str(key)], check=True)  # noqa: S607
+    subprocess.run(["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", str(key)], check=True, timeout=PATIENCE_S)  # noqa: S607
     signers.write_text(f"pi@lab.example {key.with_suffix('.pub').read_text('utf-8')}", "utf-8")
 
 
@@ -371,7 +372,7 @@ def test_the_lines_for_pandas_read_the_data_set(desk: Desk, monkeypatch: pytest.
 @pytest.mark.skipif(shutil.which("Rscript") is None, reason="there is no R here")
 def test_the_lines_for_r_read_the_data_set(desk: Desk) -> None:
     command = ["Rscript", "-e", lines_of("analyse.md", "r")]
-    done = subprocess.run(command, cwd=desk.folder, capture_output=True, text=True, check=False)
+    done = subprocess.run(command, cwd=desk.folder, capture_output=True, text=True, check=False, timeout=PATIENCE_S)
     assert (done.returncode, "notom" in done.stdout) == (0, True), done.stderr
 
 

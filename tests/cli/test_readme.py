@@ -22,6 +22,7 @@ from kiosk.sd_notify import NotifySocketListener
 from kiosk.store.recorder import Provenance, Recorder
 from tests.forked import CHECKED, LEAST_SPOKEN, PROGRAM, LoadedProgram
 from tests.packaging.scripts import load
+from tests.patience import started
 from tests.samples import WITH_PIN, plan
 from tests.store.visitors import new_code
 from tests.store.visitors import rows as rows_of
@@ -219,7 +220,7 @@ def is_kept_up(newcomer: Newcomer, arguments: Sequence[str]) -> bool:
     listener = NotifySocketListener(newcomer.home)
     command = [sys.executable, "-m", "kiosk", *arguments]
     environment = newcomer.environment | listener.environment
-    with subprocess.Popen(command, cwd=newcomer.home, env=environment) as supervisor:
+    with started(command, cwd=newcomer.home, env=environment) as supervisor:
         while "READY" not in listener.hear(60):
             assert supervisor.poll() is None
         supervisor.terminate()

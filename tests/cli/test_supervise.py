@@ -17,6 +17,7 @@ from click.testing import CliRunner
 
 from kiosk import UserInputError, program
 from kiosk.cli.main import recollect
+from tests.patience import PATIENCE_S, Program, started
 from tests.samples import WITH_PIN
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="it looks for processes as Linux shows them")
@@ -25,12 +26,11 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="it looks for pr
 class Kept:
     """A supervisor at work."""
 
-    def __init__(self, process: subprocess.Popen[str]) -> None:
+    def __init__(self, process: Program) -> None:
         self.process = process
 
     def wait_for(self, what: str) -> dict[str, Any]:
         """Return the next happening of this kind; fails if the supervisor ends before."""
-        assert self.process.stdout is not None
         for line in self.process.stdout:
             happening: dict[str, Any] = json.loads(line)
             if happening["what"] == what:
@@ -48,7 +48,7 @@ def kept(data: Path, *options: str, before: tuple[str, ...] = ()) -> Iterator[Ke
     """Provide a supervisor with this data folder and these options; ``before`` is a command that starts it."""
     command = (*before, *program("run", "--supervise", "--json", "--data", str(data), *options))
     environment = os.environ | {"QT_QPA_PLATFORM": "offscreen"}
-    with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as one:
+    with started(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as one:
         try:
             yield Kept(one)
         finally:
@@ -89,7 +89,7 @@ def test_a_data_folder_that_cannot_be_used_is_said_before_anything_is_started(tm
     study = tmp_path / "study.toml"
     study.write_text(WITH_PIN)
     command = program("run", "--supervise", "--data", str(tmp_path / "file"), "--study", str(study))
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=PATIENCE_S)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == f"recollect: the data folder {tmp_path / 'file'} cannot be used: File exists\n"
 
@@ -122,7 +122,12 @@ def test_a_kiosk_that_is_started_again_unattended_needs_its_pin_still(tmp_path: 
     """The study file may have changed since the supervisor looked at it."""
     command = program("run", "--unattended", "--data", str(tmp_path / "data"))
     done = subprocess.run(
-        command, env=os.environ | {"QT_QPA_PLATFORM": "offscreen"}, capture_output=True, text=True, check=False
+        command,
+        env=os.environ | {"QT_QPA_PLATFORM": "offscreen"},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=PATIENCE_S,
     )
     assert (done.returncode, "recollect study set-pin" in done.stderr) == (2, True)
     assert not (tmp_path / "data").exists()

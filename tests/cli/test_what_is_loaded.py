@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.patience import PATIENCE_S
+
 HEAVY = {
     *("pydantic", "cattrs", "fluent", "babel", "rich", "psutil", "filelock", "numpy"),
     *("PySide6.QtQml", "PySide6.QtQuick"),
@@ -44,12 +46,14 @@ main()
 @pytest.mark.parametrize("module", QUICK)
 def test_what_must_be_quick_loads_nothing_heavy(module: str) -> None:
     look = f"import sys, {module}; print(*(set(sys.modules) & {HEAVY!r}))"
-    loaded = subprocess.run([sys.executable, "-c", look], capture_output=True, text=True, check=True)
+    loaded = subprocess.run(
+        [sys.executable, "-c", look], capture_output=True, text=True, check=True, timeout=PATIENCE_S
+    )
     assert loaded.stdout.split() == []
 
 
 def test_the_start_screen_waits_for_nothing_that_only_a_session_needs_and_for_no_other_thread(tmp_path: Path) -> None:
     command = [sys.executable, "-c", START, "run", "--window", "--data", str(tmp_path)]
     offscreen = os.environ | {"QT_QPA_PLATFORM": "offscreen", "QT_QUICK_BACKEND": "software"}
-    loaded = subprocess.run(command, capture_output=True, text=True, check=True, env=offscreen)
+    loaded = subprocess.run(command, capture_output=True, text=True, check=True, env=offscreen, timeout=PATIENCE_S)
     assert loaded.stdout.split() == []

@@ -16,6 +16,7 @@ from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
 from tests.export.conftest import PARTICIPANTS, rows_of
 from tests.export.visitors import store, visitor
+from tests.patience import PATIENCE_S
 
 NAMES = re.compile(
     r"README\.md|CHANGES|dataset_description\.json|participants\.(tsv|json)|task-concentration_(beh|events)\.json"
@@ -113,6 +114,8 @@ def test_the_validator_itself_finds_no_error(bids: Path) -> None:
     validator = shutil.which("bids-validator-deno")
     if validator is None:
         pytest.skip("the BIDS validator (bids-validator-deno) is not installed")
-    run = subprocess.run([validator, str(bids), "--format", "json"], capture_output=True, text=True, check=False)
+    run = subprocess.run(
+        [validator, str(bids), "--format", "json"], capture_output=True, text=True, check=False, timeout=PATIENCE_S
+    )
     found = json.loads(run.stdout)["issues"]["issues"]
     assert [issue for issue in found if issue["severity"] == "error"] == []

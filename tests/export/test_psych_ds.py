@@ -13,6 +13,7 @@ import pytest
 
 from kiosk.experiment.condition import CONDITIONS
 from tests.export.psych_ds import issues
+from tests.patience import PATIENCE_S
 
 TABLE = "data/task-concentration_description-flips_data.csv"
 VALIDATOR = Path(__file__).parents[2] / "build" / "node_modules" / "psychds-validator" / "cli.js"
@@ -37,7 +38,7 @@ def test_the_validator_itself_finds_nothing(exported: Path) -> None:
     if node is None or not VALIDATOR.is_file():
         pytest.skip("the Psych-DS validator is not installed in build/node_modules, or there is no node")
     command = [node, str(VALIDATOR), "--json", "--showWarnings", str(exported)]
-    told = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    told = json.loads(subprocess.run(command, capture_output=True, text=True, check=True, timeout=PATIENCE_S).stdout)
     assert told["valid"] is True, told["issues"]
     assert [issue["key"] for issue in told["issues"] if issue["severity"] != "ignore"] == []
 
@@ -116,7 +117,7 @@ def test_each_fault_would_be_seen(code: str, exported: Path, tmp_path: Path) -> 
 
 def test_the_example_of_the_data_set_runs(exported: Path) -> None:
     command = [sys.executable, str(exported / "analysis" / "example.py")]
-    lines = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
+    lines = subprocess.run(command, capture_output=True, text=True, check=True, timeout=PATIENCE_S).stdout.splitlines()
     assert [line.split()[0] for line in lines] == sorted(condition.name for condition in CONDITIONS)
 
 
@@ -126,7 +127,7 @@ def test_the_example_of_the_page_runs_and_says_the_same(exported: Path, tmp_path
     assert len(example.replace("\n\n", "\n").splitlines()) <= 11
     (tmp_path / "my-study").symlink_to(exported)
     outputs = [
-        subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True).stdout
+        subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True, timeout=PATIENCE_S).stdout
         for command in ([sys.executable, "-c", example], [sys.executable, str(exported / "analysis" / "example.py")])
     ]
     assert outputs[0] == outputs[1] != ""

@@ -24,6 +24,7 @@ from kiosk import program
 from kiosk.cli.composition import code_commit
 from kiosk.store.queries import open_repository
 from kiosk.training.native import COMPILER, SHIPPED
+from tests.patience import PATIENCE_S, started
 from tests.samples import WITH_PIN
 
 ROOT = Path(__file__).parents[2]
@@ -49,7 +50,7 @@ def unpacked(folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     _build("quick-deb")
     (package,) = (ROOT / "dist").glob("recollect_*.deb")
     place = tmp_path_factory.mktemp("deb")
-    subprocess.run([dpkg, "-x", str(package), str(place)], check=True)
+    subprocess.run([dpkg, "-x", str(package), str(place)], check=True, timeout=PATIENCE_S)
     return place
 
 
@@ -145,7 +146,7 @@ def test_a_build_keeps_itself_up(unpacked: Path, tmp_path: Path) -> None:
         str(study),
     ]
     environment = os.environ | {"QT_QPA_PLATFORM": "offscreen"}
-    with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as supervisor:
+    with started(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as supervisor:
         assert supervisor.stdout is not None
         happenings = iter(supervisor.stdout)
         what = next(told["what"] for line in happenings if (told := json.loads(line))["what"] not in {"started"})

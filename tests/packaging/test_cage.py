@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.patience import PATIENCE_S
+
 SCRIPT = Path(__file__).parents[2] / "packaging" / "linux" / "recollect-cage"
 CAGE = '#!/bin/sh\nwhile [ "$1" != -- ]; do shift; done\nshift\n"$@"\nexit 0\n'
 
@@ -44,6 +46,8 @@ def ended(folder: Path, cage: str, supervisor: str) -> int:
         (folder / name).write_text(text)
         (folder / name).chmod(0o755)
     environment = os.environ | {"PATH": f"{folder}:{os.environ['PATH']}", "TMPDIR": str(folder)}
-    done = subprocess.run(["/bin/sh", SCRIPT, "--study", "a b"], env=environment, capture_output=True, check=False)
+    done = subprocess.run(
+        ["/bin/sh", SCRIPT, "--study", "a b"], env=environment, capture_output=True, check=False, timeout=PATIENCE_S
+    )
     assert sorted(path.name for path in folder.iterdir()) == ["cage", "recollect"]
     return done.returncode

@@ -13,6 +13,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from tests.patience import Program, limited, serving
+
 PROGRAMS = ("pulseaudio", "pactl", "parec")
 PATIENCE_S = 10.0
 
@@ -68,7 +70,7 @@ class PulseServer:
         """End it, as when a loudspeaker is pulled out."""
         if self._server is not None:
             self._server.kill()
-            self._server.wait()
+            self._server.wait(PATIENCE_S)
 
     def control(self, *arguments: str) -> subprocess.CompletedProcess[str]:
         """Run ``pactl``."""
@@ -82,7 +84,7 @@ class PulseServer:
         )
 
     @contextmanager
-    def microphone(self) -> Iterator[subprocess.Popen[bytes]]:
+    def microphone(self) -> Iterator[Program]:
         """Provide what the loudspeaker is given, as 16 bit mono at 48 kHz, while it is given."""
         command = [
             shutil.which("parec") or "",
@@ -93,12 +95,11 @@ class PulseServer:
             "--channels=1",
             "--latency-msec=2",
         ]
-        with subprocess.Popen(command, env=self.environment, stdout=subprocess.PIPE) as recorder:
+        with serving(command, env=self.environment, stdout=subprocess.PIPE) as recorder:
             yield recorder
-            recorder.kill()
 
 
-def heard(recorder: subprocess.Popen[bytes], count: int) -> NDArray[np.int16]:
+def heard(recorder: Program, count: int) -> NDArray[np.int16]:
     """Return the next samples of a microphone."""
-    assert recorder.stdout is not None
-    return np.frombuffer(recorder.stdout.read(2 * count), dtype="<i2")
+    with limited(recorder):
+        return np.frombuffer(recorder.stdout.read(2 * count), dtype="<i2")

@@ -61,8 +61,11 @@ class RealtimeFake:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
-        self._server.shutdown()
-        self._thread.join()
+        # It waits for the threads of its connections.
+        ending = threading.Thread(target=self._server.shutdown, daemon=True)
+        ending.start()
+        ending.join(PATIENCE_S)
+        assert not ending.is_alive(), "a connection of the robot did not end"
 
     @property
     def sentences(self) -> list[str]:

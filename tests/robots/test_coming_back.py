@@ -20,6 +20,7 @@ from kiosk.robots.furhat_realtime import FurhatRealtime
 from kiosk.robots.http_client import NameLookup
 from kiosk.robots.registry import robot_check
 from kiosk.robots.selector import EmbodimentSelector
+from tests.patience import PATIENCE_S
 from tests.robots.furhat_fake import FAULTS, FurhatFake, Mode
 from tests.robots.realtime_fake import Mode as RealtimeMode
 from tests.robots.realtime_fake import RealtimeFake
@@ -134,7 +135,7 @@ def slow_names(monkeypatch: pytest.MonkeyPatch) -> Iterator[Event]:
         if host == "robot.test":
             assert get_ident() != interface
             ASKED.append(host)
-            known.wait()
+            known.wait(PATIENCE_S)
             host = "127.0.0.1"
         return ask(host, *rest, **options)
 

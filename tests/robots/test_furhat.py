@@ -19,6 +19,7 @@ from kiosk.robots.driver import FailureKind, RobotError, RobotVoice, SpokenClip,
 from kiosk.robots.embodiment import BoardPoint
 from kiosk.robots.furhat import Furhat
 from kiosk.robots.registry import create_robot
+from tests.patience import PATIENCE_S
 from tests.robots.furhat_fake import FAULTS, FurhatFake, Mode
 
 DEADLINE_MS = 250
@@ -228,7 +229,7 @@ def test_a_sentence_that_is_cut_is_waited_for_no_longer(fake: FurhatFake) -> Non
             robot.say(under_way)
         failures.append(failed.value)
 
-    thread = threading.Thread(target=say)
+    thread = threading.Thread(target=say, daemon=True)
     thread.start()
     fake.wait_until(lambda: fake.sentences)
     under_way.cancel()
@@ -247,6 +248,7 @@ def test_a_sentence_that_was_cut_before_it_was_sent_is_not_waited_for(fake: Furh
 
 def test_an_answer_without_an_end_is_garbage() -> None:
     listening = socket.create_server(("127.0.0.1", 0))
+    listening.settimeout(PATIENCE_S)
 
     def pour() -> None:
         connection, _ = listening.accept()
@@ -256,7 +258,7 @@ def test_an_answer_without_an_end_is_garbage() -> None:
             while True:
                 connection.sendall(b"[" * 100_000)
 
-    thread = threading.Thread(target=pour)
+    thread = threading.Thread(target=pour, daemon=True)
     thread.start()
     settings = RobotSettings(host="127.0.0.1", port=listening.getsockname()[1])
     with listening, pytest.raises(RobotError) as failed:

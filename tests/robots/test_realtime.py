@@ -122,7 +122,7 @@ def test_a_sentence_that_is_cut_is_waited_for_no_longer(fake: RealtimeFake, robo
         fake.wait_until(lambda: fake.sentences)
         under_way.cancel()
 
-    threading.Thread(target=cut).start()
+    threading.Thread(target=cut, daemon=True).start()
     with pytest.raises(RobotError) as failed:
         robot.say(under_way)
     assert failed.value.kind is FailureKind.CUT

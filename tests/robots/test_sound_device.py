@@ -136,8 +136,7 @@ def test_nothing_is_posted_of_a_sound_that_was_stopped_or_has_no_number(ears: Ea
     assert ears.next(player)["event"] == "started"
     player.stop()
     player.play(None, TONE)
-    while player.busy:
-        player.tend()
+    tended(player, lambda: not player.busy)
     player.play(2, TONE)
     assert [ears.next(player)["id"], ears.next(player)["event"]] == [2, "finished"]
 
@@ -317,7 +316,9 @@ def test_a_virtual_loudspeaker_is_given_the_sound_and_its_loss_and_return_are_to
     server.start()
     # A sound server that has just begun may stall once more on a busy machine.
     numbers = count(4)
+    deadline = time.monotonic() + PATIENCE_S
     while not player.device or post["event"] != "started":
+        assert time.monotonic() < deadline, "the loudspeaker did not come back"
         if player.device and not player.busy:
             player.play(next(numbers), TONE)
         post = ears.next(player)

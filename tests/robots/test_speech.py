@@ -18,6 +18,7 @@ from kiosk.robots import LOUDNESS_MS, voice_options
 from kiosk.robots.clips import Clip, loudness_steps
 from kiosk.robots.sound_device import NOWHERE
 from kiosk.robots.tts_engines import described, voice_of
+from tests.patience import Program, started
 
 RATE = 8000
 FAST = VoiceConfig(rate=300, device=NOWHERE)
@@ -70,18 +71,16 @@ def test_sounds_of_any_width_and_number_of_channels_become_the_same(tmp_path: Pa
 class Process:
     """The voice's process, spoken to as the interface does."""
 
-    def __init__(self, child: subprocess.Popen[str]) -> None:
+    def __init__(self, child: Program) -> None:
         self.child = child
 
     def send(self, command: dict[str, object]) -> None:
         """Send one command."""
-        assert self.child.stdin is not None
         self.child.stdin.write(json.dumps(command) + "\n")
         self.child.stdin.flush()
 
     def hear(self) -> dict[str, Any]:
         """Return the next event."""
-        assert self.child.stdout is not None
         event: dict[str, Any] = json.loads(self.child.stdout.readline())
         return event
 
@@ -91,9 +90,8 @@ def process() -> Iterator[Process]:
     """Provide the real thing, with whatever engine this machine has."""
     command = [sys.executable, "-m", "kiosk.robots.tts_worker", voice_options(FAST, "en")]
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
-    with subprocess.Popen(command, text=True, **pipes) as child:  # type: ignore[call-overload]
+    with started(command, text=True, **pipes) as child:
         yield Process(child)
-        assert child.stdin is not None
         child.stdin.close()
         assert child.wait(timeout=10) == 0
 

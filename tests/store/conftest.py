@@ -13,6 +13,7 @@ from kiosk.experiment.outcomes import SessionKind
 from kiosk.store import codes
 from kiosk.store.recorder import Provenance
 from tests.experiment.driver import Driver, with_memory
+from tests.patience import Program, serving
 from tests.samples import mixed, plan
 from tests.store.visitors import CHEAP
 
@@ -50,9 +51,9 @@ def played(provenance: Provenance) -> Driver:
 
 
 @pytest.fixture(scope="module")
-def writer() -> Iterator[subprocess.Popen[str]]:
+def writer() -> Iterator[Program]:
     """Provide a program that has sessions written by processes that do not stop."""
-    with subprocess.Popen(
+    with serving(
         [sys.executable, "-m", "tests.store.writer"],
         cwd=ROOT,
         stdin=subprocess.PIPE,

@@ -45,6 +45,7 @@ from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.snapshot import read_snapshot
 from kiosk.store.verify import verify
+from tests.patience import PATIENCE_S, Program, end_all, limited, serving, started
 from tests.samples import plan
 from tests.store.visitors import COMPLETED
 
@@ -178,20 +179,26 @@ class Tally:
 class Worker:
     """The process that has everything loaded and forks."""
 
-    def __init__(self, process: subprocess.Popen[str]) -> None:
+    def __init__(self, process: Program) -> None:
         """Talk to this process."""
         self._process = process
 
     def order(self, action: str, **more: Any) -> None:
         """Have a writer forked."""
-        assert self._process.stdin is not None
         self._process.stdin.write(json.dumps({"action": action} | more) + "\n")
         self._process.stdin.flush()
 
+    def end(self) -> None:
+        """End it with all that it has forked; nothing more is heard."""
+        end_all(self._process)
+
     def hear(self) -> Iterator[dict[str, Any]]:
         """Yield what the writer reports, up to its end."""
-        assert self._process.stdout is not None
-        for line in self._process.stdout:
+        while True:
+            with limited(self._process):
+                line = self._process.stdout.readline()
+            if not line:
+                return
             report = json.loads(line)
             yield report
             if report["what"] == ENDED:
@@ -202,13 +209,8 @@ class Worker:
 def worker() -> Iterator[Worker]:
     """Start it, and end it with all that it has forked."""
     command = [sys.executable, "-c", "from tests.store.hard_times import work; work()"]
-    with subprocess.Popen(
-        command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, start_new_session=True
-    ) as process:
-        try:
-            yield Worker(process)
-        finally:
-            os.killpg(process.pid, signal.SIGKILL)
+    with serving(command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        yield Worker(process)
 
 
 def kills(times: int, seed: int, place: Path) -> Tally:
@@ -291,13 +293,14 @@ def opens(times: int, seed: int, place: Path) -> Tally:
                 heard.set()
 
         # A pipe that is full would hold up the writer.
-        listener = threading.Thread(target=hear)
+        listener = threading.Thread(target=hear, daemon=True)
         listener.start()
-        heard.wait()
+        assert heard.wait(PATIENCE_S), "the writer wrote nothing"
         for number in track(range(times), description="opens", disable=not sys.stderr.isatty()):
             tally.times += 1
             tally.faults += [f"open {number}: {fault}" for fault in wrong_with_an_open(folder, dict(last))]
-    listener.join()
+        writers.end()
+        listener.join(PATIENCE_S)
     return tally
 
 
@@ -325,11 +328,12 @@ def small_disk(place: Path) -> Iterator[Path]:
         ["mount", "-t", "tmpfs", "-o", f"size={DISK_MIB}m,mode=700", "tmpfs", place],  # noqa: S607 - the system's own
         check=True,
         capture_output=True,
+        timeout=PATIENCE_S,
     )
     try:
         yield place
     finally:
-        subprocess.run(["umount", "-l", place], check=True)  # noqa: S607 - the system's own
+        subprocess.run(["umount", "-l", place], check=True, timeout=PATIENCE_S)  # noqa: S607 - the system's own
 
 
 def full_disks(times: int, seed: int, place: Path, *, commands: bool = True) -> Tally:
@@ -407,7 +411,7 @@ def said_by_commands(folder: Path, disk: Path, code: str, tally: Tally) -> Itera
 def run(command: tuple[str, ...]) -> subprocess.CompletedProcess[str]:
     """Run a command; a kiosk that opens all the same is closed as the system closes it."""
     environment = os.environ | {"QT_QPA_PLATFORM": "offscreen"}
-    with subprocess.Popen(
+    with started(
         program(*command), env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     ) as process:
         try:

@@ -38,6 +38,7 @@ from kiosk.store.merge import merge
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.verify import Verification, verify
 from kiosk.store.withdrawal import withdraw
+from tests.patience import PATIENCE_S
 from tests.samples import plan
 from tests.store.recorded_disk import Entry, Kind, after_a_cut, make_image, mounted, read_log, recorded_disk
 
@@ -272,7 +273,7 @@ def record(folder: Path, rounds: int, seed: int) -> tuple[bytes, list[Entry]]:
     with recorded_disk(image, folder, log) as (disk, acknowledged):
         order = json.dumps([str(disk), str(acknowledged), seed, rounds])
         command = [sys.executable, "-c", "from tests.store.power_cut import write; write()", order]
-        subprocess.run(command, cwd=ROOT, check=True)
+        subprocess.run(command, cwd=ROOT, check=True, timeout=PATIENCE_S)
     return image.read_bytes(), read_log(log)
 
 

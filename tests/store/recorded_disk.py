@@ -25,6 +25,8 @@ from pathlib import Path
 from random import Random
 from typing import BinaryIO
 
+from tests.patience import PATIENCE_S, started
+
 SECTOR = 512
 """What a disk writes whole or not at all."""
 PAGE = 4096
@@ -263,8 +265,7 @@ def recorded_disk(image: Path, folder: Path, log: Path) -> Iterator[tuple[Path, 
     below.mkdir()
     command = [sys.executable, "-m", __name__, str(below), str(image), str(log)]
     with ExitStack() as undo:
-        server = undo.enter_context(subprocess.Popen(command, stdout=subprocess.PIPE, text=True))
-        assert server.stdout is not None
+        server = undo.enter_context(started(command, stdout=subprocess.PIPE, text=True))
         if not server.stdout.readline():
             raise subprocess.CalledProcessError(server.wait(), command)
         undo.callback(_do, "umount", str(below))
@@ -273,7 +274,7 @@ def recorded_disk(image: Path, folder: Path, log: Path) -> Iterator[tuple[Path, 
 
 
 def _do(*command: str) -> None:
-    subprocess.run(command, check=True, capture_output=True)
+    subprocess.run(command, check=True, capture_output=True, timeout=PATIENCE_S)
 
 
 if __name__ == "__main__":

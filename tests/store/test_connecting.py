@@ -28,6 +28,7 @@ from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.verify import verify
 from kiosk.store.withdrawal import withdraw
+from tests.patience import PATIENCE_S
 from tests.store.visitors import BEGUN, COMPLETED, a_day
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="owners and rights are those of POSIX")
@@ -95,13 +96,13 @@ def read_only(folder: Path) -> Iterator[Path]:
     mount = ["mount", "--bind", str(folder), str(mounted)], ["mount", "-o", "remount,ro,bind", str(mounted)]
     try:
         for command in mount:
-            subprocess.run(command, check=True, capture_output=True)
+            subprocess.run(command, check=True, capture_output=True, timeout=PATIENCE_S)
     except (OSError, subprocess.CalledProcessError):
         pytest.skip("nothing can be mounted here")
     try:
         yield mounted
     finally:
-        subprocess.run(["umount", "-l", mounted], check=True)  # noqa: S607 - the system's own
+        subprocess.run(["umount", "-l", mounted], check=True, timeout=PATIENCE_S)  # noqa: S607 - the system's own
 
 
 @POSIX
@@ -201,7 +202,7 @@ def test_a_process_that_writes_a_database_never_reads_it_as_a_plain_file(
                 open_for_reading(folder)
         kiosk.execute("CREATE TABLE more (id INTEGER) STRICT")
         look = "import sqlite3, sys; c = sqlite3.connect(sys.argv[1]); c.execute('SELECT 1 FROM migration'); c.close()"
-        subprocess.run([sys.executable, "-c", look, folder / FILE], check=True)
+        subprocess.run([sys.executable, "-c", look, folder / FILE], check=True, timeout=PATIENCE_S)
         assert folder.joinpath(f"{FILE}-wal").exists()
 
 
@@ -235,7 +236,7 @@ os.kill(os.getpid(), signal.SIGKILL)
 
 def cut_off_in_a_transaction(path: Path) -> None:
     """Have a transaction killed of which some pages stand in the file already, and a journal to take them back."""
-    done = subprocess.run([sys.executable, "-c", SPILLED, path], check=False)
+    done = subprocess.run([sys.executable, "-c", SPILLED, path], check=False, timeout=PATIENCE_S)
     assert done.returncode == -signal.SIGKILL
     assert path.with_name(f"{path.name}-journal").stat().st_size > 0
 

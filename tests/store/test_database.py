@@ -28,6 +28,7 @@ from kiosk.store.database import (
 from kiosk.store.migrations import MIGRATIONS, SCHEMA, Migration
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Recorder
+from tests.patience import PATIENCE_S
 
 ONE_MORE = Migration(SCHEMA + 1, "one more step", ("CREATE TABLE more (id INTEGER PRIMARY KEY) STRICT",))
 BROKEN = Migration(
@@ -272,7 +273,7 @@ def test_what_a_kiosk_reads_of_its_database_never_lets_another_program_take_its_
         open_for_reading(folder).close()
         kiosk.execute("CREATE TABLE more (id INTEGER) STRICT")
         look = "import sqlite3, sys; c = sqlite3.connect(sys.argv[1]); c.execute('SELECT 1 FROM migration'); c.close()"
-        subprocess.run([sys.executable, "-c", look, folder / FILE], check=True)
+        subprocess.run([sys.executable, "-c", look, folder / FILE], check=True, timeout=PATIENCE_S)
 
         assert folder.joinpath(f"{FILE}-wal").exists()
 
@@ -287,12 +288,12 @@ def test_a_folder_that_another_program_leaves_meanwhile_is_waited_for_and_no_lon
     def hold() -> None:
         lock = lock_folder(folder)
         held.set()
-        seen.wait()
+        seen.wait(PATIENCE_S)
         lock.release()
 
-    holding = threading.Thread(target=hold)
+    holding = threading.Thread(target=hold, daemon=True)
     holding.start()
-    held.wait()
+    assert held.wait(PATIENCE_S)
     wait_until_free(folder, 0)
     assert in_use(folder)
 
@@ -303,5 +304,5 @@ def test_a_folder_that_another_program_leaves_meanwhile_is_waited_for_and_no_lon
 
     monkeypatch.setattr(database, "in_use", look)
     wait_until_free(folder, 60)
-    holding.join()
+    holding.join(PATIENCE_S)
     assert not in_use(folder)

@@ -6,7 +6,6 @@ import json
 import os
 import signal
 import sqlite3
-import subprocess
 import threading
 import time
 from contextlib import closing
@@ -28,7 +27,9 @@ from kiosk.store import recorder as recorder_module
 from kiosk.store.database import FILE, open_for_writing
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder, StoreBusy
+from tests import patience
 from tests.experiment.driver import Driver, replay
+from tests.patience import PATIENCE_S, Program
 from tests.store.writer import GONE
 
 A_TOMBSTONE = (
@@ -474,7 +475,7 @@ def test_a_database_is_not_migrated_under_a_recorder_that_is_at_work(folder: Pat
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs a system that can fork")
 @pytest.mark.parametrize("attempt", range(20))
 def test_a_process_killed_while_it_writes_loses_nothing_that_it_acknowledged(
-    folder: Path, writer: subprocess.Popen[str], attempt: int
+    folder: Path, writer: Program, attempt: int
 ) -> None:
     acknowledged = kill_in_the_middle(writer, folder, after=Random(attempt).randrange(1, 60))
     with Recorder(folder) as recorder:
@@ -488,15 +489,14 @@ def test_a_process_killed_while_it_writes_loses_nothing_that_it_acknowledged(
     assert written == ["SessionStarted", *["CardSelected", "CardSelectionRejected"] * ((len(written) - 1) // 2)]
 
 
-def kill_in_the_middle(writer: subprocess.Popen[str], folder: Path, after: int) -> int:
+def kill_in_the_middle(writer: Program, folder: Path, after: int) -> int:
     """Have a session written, kill the writer after so many batches, and say how many events it had acknowledged."""
-    assert writer.stdin is not None
-    assert writer.stdout is not None
-    writer.stdin.write(f"{folder}\n")
-    writer.stdin.flush()
-    process, *said = [int(writer.stdout.readline()) for _ in range(1 + after)]
-    os.kill(process, signal.SIGKILL)
-    said += [int(line) for line in iter(writer.stdout.readline, f"{GONE}\n")]
+    with patience.limited(writer):
+        writer.stdin.write(f"{folder}\n")
+        writer.stdin.flush()
+        process, *said = [int(writer.stdout.readline()) for _ in range(1 + after)]
+        os.kill(process, signal.SIGKILL)
+        said += [int(line) for line in iter(writer.stdout.readline, f"{GONE}\n")]
     return said[-1]
 
 
@@ -525,13 +525,13 @@ def test_a_recorder_that_is_told_to_wait_writes_when_the_other_program_lets_go(
         other.execute("BEGIN IMMEDIATE")
 
         def let_go() -> None:
-            begun.wait()
+            begun.wait(PATIENCE_S)
             other.execute("ROLLBACK")
 
-        letting_go = threading.Thread(target=let_go)
+        letting_go = threading.Thread(target=let_go, daemon=True)
         letting_go.start()
         recorder.add_audit_event("PanelOpened", {})
-        letting_go.join()
+        letting_go.join(PATIENCE_S)
     assert rows(tmp_path, "SELECT type FROM audit_event") == [("PanelOpened",)]
 
 

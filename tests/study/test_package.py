@@ -29,6 +29,7 @@ from kiosk.study.package import (
     verify_signature,
     write_package,
 )
+from tests.patience import PATIENCE_S
 from tests.samples import WITH_PIN
 
 STUDY = """
@@ -266,7 +267,7 @@ needs_ssh = pytest.mark.skipif(shutil.which("ssh-keygen") is None, reason="there
 
 def new_key(folder: Path, name: str) -> Path:
     """Make an SSH key without a passphrase."""
-    subprocess.run(["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", folder / name], check=True)  # noqa: S607
+    subprocess.run(["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", folder / name], check=True, timeout=PATIENCE_S)  # noqa: S607
     return folder / name
 
 
@@ -310,6 +311,6 @@ def test_a_key_that_cannot_sign_is_said(file: Path, tmp_path: Path) -> None:
 def test_the_command_prints_the_hash_of_the_file(study: Path, package: Package, tmp_path: Path) -> None:
     out = tmp_path / "out.recollect"
     command = [sys.executable, "-m", "kiosk", "study", "pack", str(study), "--out", str(out)]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=PATIENCE_S)
     assert done.stdout == f"{package.sha256}  {out}\n"
     assert out.read_bytes() == package.content

@@ -36,6 +36,7 @@ from kiosk.study.wording_drafts import (
     sign_wording,
     wordings_in,
 )
+from tests.patience import PATIENCE_S
 from tests.samples import ANIMALS, CATALOGUES, ENGLISH
 
 TODAY = date(2026, 5, 9)
@@ -59,13 +60,13 @@ def serving(answer: bytes, status: int = 200) -> Iterator[tuple[str, list[dict[s
             """Keep the tests' output clean."""
 
     server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
-    thread = threading.Thread(target=server.serve_forever, args=(0.01,))
+    thread = threading.Thread(target=server.serve_forever, args=(0.01,), daemon=True)
     thread.start()
     try:
         yield f"http://127.0.0.1:{server.server_address[1]}/v1", asked
     finally:
         server.shutdown()
-        thread.join()
+        thread.join(PATIENCE_S)
         server.server_close()
 
 

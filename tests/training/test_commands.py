@@ -19,6 +19,7 @@ from kiosk.cli import learning
 from kiosk.cli.main import recollect
 from kiosk.config import POLICIES
 from kiosk.training import policies
+from tests.patience import PATIENCE_S
 
 
 def run(*words: str) -> Result:
@@ -169,7 +170,7 @@ def outside(*words: str, limit: int | None = None) -> subprocess.CompletedProces
         resource = pytest.importorskip("resource", reason="files can be limited on Unix only")
         command = [sys.executable, "-c", LIMITED.format(limit=limit, limits=resource.RLIMIT_FSIZE), *words]
     plain = os.environ | {"NUMBA_DISABLE_JIT": "1"}
-    return subprocess.run(command, capture_output=True, text=True, check=False, env=plain)
+    return subprocess.run(command, capture_output=True, text=True, check=False, env=plain, timeout=PATIENCE_S)
 
 
 LIMITED = """

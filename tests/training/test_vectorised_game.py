@@ -31,6 +31,7 @@ from kiosk.training.vectorised_game import (
     copy_compiled,
     place_of_compiled,
 )
+from tests.patience import PATIENCE_S
 from tests.samples import mixed
 
 GATES = st.builds(Gate, st.integers(0, 12), st.integers(0, 8), st.integers(0, 16))
@@ -158,7 +159,9 @@ def plainly() -> list[str]:
 def printed(environment: dict[str, str], before: str = "") -> list[str]:
     """Return what the script prints in an interpreter of its own."""
     command = [sys.executable, "-W", "error", "-c", before + SAME]
-    done = subprocess.run(command, capture_output=True, text=True, check=True, env=os.environ | environment)
+    done = subprocess.run(
+        command, capture_output=True, text=True, check=True, env=os.environ | environment, timeout=PATIENCE_S
+    )
     return done.stdout.splitlines()
 
 

@@ -30,7 +30,7 @@ from kiosk.ui.event_loop import VirtualClock
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import BehaviourProfile, UiDriver, find_item, item_centre, lay_out
 from kiosk.ui.window import RunMode, Window
-from tests.ui.headless import HALF, PLAIN, headless
+from tests.ui.headless import HALF, PLAIN, headless, process_until
 
 
 @pytest.fixture(scope="session")
@@ -170,8 +170,7 @@ def shared_booth(
 ) -> Iterator[Booth]:
     """Open a booth for all tests of a module, by default in half the usual size; its window has the keyboard."""
     with headless(settings, data, mode=mode, opened=opened) as app:
-        while not (app.window.isExposed() and app.window.isActive()):
-            QGuiApplication.processEvents()
+        process_until(lambda: app.window.isExposed() and app.window.isActive())
         yield Booth(app, data)
 
 

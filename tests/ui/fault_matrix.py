@@ -21,6 +21,7 @@ import click
 from kiosk.cli.composition import read_settings
 from kiosk.store.queries import open_repository
 from kiosk.ui.app import App
+from tests.patience import Program, limited
 from tests.robots.furhat_fake import FAULTS
 from tests.robots.furhat_fake import Mode as Fault
 from tests.ui.headless import headless
@@ -34,24 +35,24 @@ class Robot:
     """A fake robot in a process of its own."""
 
     def __init__(self, *arguments: str) -> None:
-        self._process = subprocess.Popen(
+        self._process = Program(
             [sys.executable, "-m", "tests.robots.furhat_fake", "--character-ms", "1", *arguments],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
         )
-        assert self._process.stdout is not None
-        self.port = int(self._process.stdout.readline())
+        with limited(self._process):
+            self.port = int(self._process.stdout.readline())
 
     def fall_into(self, mode: Fault) -> None:
         """Have it answer so from now on."""
-        assert self._process.stdin is not None
         self._process.stdin.write(f"{mode.name}\n")
         self._process.stdin.flush()
 
     def close(self) -> None:
         """End the process."""
-        self._process.communicate()
+        with limited(self._process):
+            self._process.communicate()
 
 
 def kiosk_with_robot(port: int, data: Path) -> AbstractContextManager[App]:

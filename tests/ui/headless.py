@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
+from time import monotonic
 
 from PySide6.QtGui import QGuiApplication
 
@@ -19,6 +20,7 @@ from kiosk.study.loader import read_study
 from kiosk.ui.app import App
 from kiosk.ui.condition_assigner import ConditionAssigner, RunContext
 from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
+from tests.patience import PATIENCE_S
 from tests.samples import SHORT
 
 VIRTUAL = RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL)
@@ -71,13 +73,20 @@ def study_of(settings: Settings) -> StudyConfig:
     return read_study(settings) if number is None else _often(number)
 
 
+def process_until(holds: Callable[[], bool]) -> None:
+    """Let Qt do what waits until something is so; fails if it never is."""
+    deadline = monotonic() + PATIENCE_S
+    while not holds():
+        QGuiApplication.processEvents()
+        assert monotonic() < deadline, "what was waited for never came"
+
+
 @contextmanager
 def open_window(study: StudyConfig) -> Iterator[Window]:
     """Open the window of a study, with no kiosk behind it; there must be an application object."""
     window = Window(study, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL))
     window.show()
-    while not window.shown.isExposed():
-        QGuiApplication.processEvents()
+    process_until(window.shown.isExposed)
     yield window
     window.close()
 

@@ -39,6 +39,7 @@ from kiosk.ui.app import App
 from kiosk.ui.condition_assigner import ConditionAssigner, RunContext
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.window import ClockMode, RunMode, WindowMode
+from tests.patience import Program, limited, serving
 
 GONE = "gone"
 SMALL = Settings.model_validate(
@@ -163,17 +164,14 @@ def wrong_with(folder: Path, killing: Killing) -> str:
 
 
 @contextmanager
-def forker() -> Iterator[subprocess.Popen[str]]:
+def forker() -> Iterator[Program]:
     """Provide the process that has everything loaded."""
     command = [sys.executable, "-c", "from tests.ui.kills import main; main()"]
     environment = os.environ | {"QT_QPA_PLATFORM": "offscreen", "PYTHONUNBUFFERED": "1"}
-    with subprocess.Popen(
+    with serving(
         command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment, bufsize=1
     ) as process:
-        try:
-            yield process
-        finally:
-            process.kill()
+        yield process
 
 
 def reports_of(output: IO[str]) -> Iterator[dict[str, Any]]:
@@ -196,14 +194,13 @@ def kill_again_and_again(count: int, seed: int, folder: Path) -> Tally:
     chance, tally = Random(seed), Tally()
     cut_off: bool = False
     with forker() as process:
-        assert process.stdin is not None
-        assert process.stdout is not None
         reports = reports_of(process.stdout)
         for number in track(range(count + 1), description="kills", disable=not sys.stderr.isatty()):
             stage = STAGES[number % len(STAGES)]
-            process.stdin.write(json.dumps({"folder": str(folder), "seed": seed + number}) + "\n")
-            process.stdin.flush()
-            killing = kill_in(stage, chance.randint(1, LATEST.get(stage, LATEST_ELSEWHERE)), reports)
+            with limited(process):
+                process.stdin.write(json.dumps({"folder": str(folder), "seed": seed + number}) + "\n")
+                process.stdin.flush()
+                killing = kill_in(stage, chance.randint(1, LATEST.get(stage, LATEST_ELSEWHERE)), reports)
             tally.faults += [f"kill {number} in {stage}: {fault}" for fault in faults(folder, killing, cut_off=cut_off)]
             tally.kills[killing.stage] += not killing.finished
             tally.acknowledged += len(killing.written)

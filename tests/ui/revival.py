@@ -32,6 +32,7 @@ from kiosk.experiment.outcomes import Status
 from kiosk.experiment.transitions import BEFORE_DECIDING
 from kiosk.store.queries import open_repository
 from kiosk.ui.session_runner import ERROR_SCREEN_MS
+from tests.patience import PATIENCE_S, Program, limited, started
 from tests.samples import WITH_PIN
 
 STAGES = ("attract", *(stage for stage in config.STAGES))
@@ -106,20 +107,20 @@ def screen() -> Iterator[dict[str, str]]:
     """Provide a virtual screen with a window manager; yields the environment for it."""
     reads, writes = os.pipe()
     geometry = ("-screen", "0", "1920x1080x24", "-nolisten", "tcp")
-    with ending(_found("Xvfb"), "-displayfd", str(writes), *geometry, pass_fds=[writes]):
+    with ending(_found("Xvfb"), "-displayfd", str(writes), *geometry, pass_fds=[writes]) as server:
         os.close(writes)
-        with os.fdopen(reads) as number:
+        with os.fdopen(reads) as number, limited(server):
             environment = os.environ | {"DISPLAY": f":{number.readline().strip()}", "QT_QPA_PLATFORM": "xcb"}
         with ending(_found("openbox"), env=environment):
             yield environment
 
 
 @contextmanager
-def ending(*command: str, **options: Any) -> Iterator[None]:
+def ending(*command: str, **options: Any) -> Iterator[Program]:
     """Provide a program that runs meanwhile and is ended then."""
-    with subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, **options) as process:
+    with started(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, **options) as process:
         try:
-            yield
+            yield process
         finally:
             process.terminate()
 
@@ -208,7 +209,7 @@ def _status(data: Path) -> str:
 
 
 def _photograph(file: Path, environment: dict[str, str]) -> None:
-    subprocess.run([_found("import"), "-window", "root", str(file)], env=environment, check=True)
+    subprocess.run([_found("import"), "-window", "root", str(file)], env=environment, check=True, timeout=PATIENCE_S)
 
 
 def _found(program: str) -> str:

@@ -29,6 +29,7 @@ from kiosk.ui.recording import LONGEST_MS, TOLD_AFTER_MS
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import lay_out
 from kiosk.ui.window import RunMode, WindowMode
+from tests.patience import started
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import BRIEF, TINY, headless, short
 
@@ -337,9 +338,7 @@ def test_the_interface_goes_on_while_another_process_holds_the_database(qtbot: Q
         app.runner.start("en")
         qtbot.waitUntil(lambda: app.screens.kiosk.shown == "introduction")
         command = [sys.executable, "-c", HOLDER, str(tmp_path / FILE)]
-        with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as holder:
-            assert holder.stdin is not None
-            assert holder.stdout is not None
+        with started(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as holder:
             assert holder.stdout.readline() == "held\n"
             ticks: list[int] = []
             ticking = QTimer()

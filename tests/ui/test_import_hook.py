@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from tests.patience import PATIENCE_S
+
 PROGRAM = """
 from importlib import import_module
 import PySide6.QtCore
@@ -25,6 +27,8 @@ def test_pyside_looks_at_no_module_that_is_imported_once_its_hook_is_removed(tmp
     for name in ("imported_with_the_hook", "imported_without_it"):
         (tmp_path / f"{name}.py").touch()
     (tmp_path / "program.py").write_text(PROGRAM, "utf-8")
-    done = subprocess.run([sys.executable, tmp_path / "program.py"], capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [sys.executable, tmp_path / "program.py"], capture_output=True, text=True, check=False, timeout=PATIENCE_S
+    )
     assert done.stderr == ""
     assert done.stdout.split() == ["imported_with_the_hook"], "if it is none, PySide has no hook any more"

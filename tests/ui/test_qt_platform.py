@@ -20,6 +20,7 @@ from kiosk.ui import qt_platform
 from kiosk.ui.checks import frame_check, screens_check
 from kiosk.ui.qt_platform import missing_library, obstacle
 from tests.forked import ROOT, LoadedProgram
+from tests.patience import PATIENCE_S
 from tests.samples import WITH_PIN
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a screen is always there")
@@ -174,6 +175,7 @@ main()
         capture_output=True,
         text=True,
         check=False,
+        timeout=PATIENCE_S,
     )
     said = done.stdout + done.stderr
     assert (done.returncode, "Traceback" in said) == (2 if command == "run" else 0, False)

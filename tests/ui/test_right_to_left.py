@@ -21,6 +21,7 @@ from kiosk.study.loader import read_study
 from kiosk.ui.screens.questionnaire import kept_together
 from kiosk.ui.simulated_visitor import find_item, lay_out
 from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
+from tests.ui.headless import process_until
 
 ASKED = Questionnaire.read(ASSETS / "questionnaires" / "gallery.toml").items
 RATED = next(item for item in ASKED if isinstance(item, Likert))
@@ -33,7 +34,7 @@ NEAR = 20
 
 
 @pytest.fixture(scope="module")
-def window(qapp: QApplication, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Window]:
+def window(qapp: QApplication, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Window]:  # noqa: ARG001 - Qt is to be there
     """Provide a window in Arabic, which has English words here."""
     folder = tmp_path_factory.mktemp("languages") / "ar"
     shutil.copytree(ASSETS / "sentences" / "en", folder)
@@ -44,8 +45,7 @@ def window(qapp: QApplication, tmp_path_factory: pytest.TempPathFactory) -> Iter
         RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL),
     )
     opened.show()
-    while not opened.shown.isExposed():
-        qapp.processEvents()
+    process_until(opened.shown.isExposed)
     opened.screens.kiosk.begin(("ar",), "ar", plan.settings.consent)
     opened.screens.kiosk.offer_back(offered=True)
     opened.screens.about.show(plan.information.about)

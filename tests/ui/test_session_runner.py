@@ -19,6 +19,7 @@ from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.ui.recording import DiskWriter
 from kiosk.ui.session_runner import ERROR_SCREEN_MS
+from tests.patience import PATIENCE_S
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import TINY, short
 from tests.ui.visiting import PAIR, go_on_to_the_end, go_to
@@ -212,13 +213,13 @@ class SlowDisk:
     def begin(self) -> Thread:
         """Let the writes that wait reach the disk, in their order, without a word."""
         jobs = [job for job, _ in self._held]
-        thread = Thread(target=lambda: [job() for job in jobs])
+        thread = Thread(target=lambda: [job() for job in jobs], daemon=True)
         thread.start()
         return thread
 
     def let_go(self) -> None:
         """Let them reach the disk, and tell of it."""
-        self.begin().join()
+        self.begin().join(PATIENCE_S)
         held, self._held = self._held, []
         for _, tell in held:
             tell()
@@ -279,7 +280,7 @@ def test_closing_waits_for_the_write_under_way_and_loses_nothing(booth: Booth, s
     booth.click("card-4")
     disk = slow_disk.begin()
     booth.app.runner.close()
-    disk.join()
+    disk.join(PATIENCE_S)
     assert stored_flips(booth) == [Position(0, 3), Position(0, 4)]
     with open_repository(booth.data) as stored:
         assert stored.sessions()[0].status is Status.INTERRUPTED

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -21,6 +20,7 @@ from kiosk.config import ASSETS
 from kiosk.sd_notify import NotifySocketListener
 from kiosk.ui.simulated_visitor import lay_out
 from kiosk.ui.splash import _window
+from tests.patience import started
 
 LONG = 20.0
 """Seconds; nothing here takes as long unless it fails."""
@@ -55,7 +55,7 @@ def test_every_language_says_it_and_nothing_is_cut_off(qtbot: QtBot, size: tuple
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no Unix sockets")
 def test_it_tells_when_it_is_there_and_goes_with_whoever_listens(tmp_path: Path) -> None:
     listener = NotifySocketListener(tmp_path)
-    with subprocess.Popen(program("_splash"), env=os.environ | listener.environment) as window:
+    with started(program("_splash"), env=os.environ | listener.environment) as window:
         assert listener.hear(LONG) == {"READY": "1"}
         listener.close()
         assert window.wait(LONG) == 0

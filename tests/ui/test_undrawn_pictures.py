@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from time import monotonic
 
 import pytest
 
 from kiosk import program
 from kiosk.config import ASSETS
+from kiosk.ui import checks
 from kiosk.ui.checks import CannotDraw, undrawn
 
 OWL = (ASSETS / "cards" / "animals" / "owl.svg").read_text("utf-8")
@@ -21,6 +23,8 @@ ENDLESS = SVG.format(
     + "</defs><use xlink:href='#a11'/>"
 )
 """A hundred thousand million squares."""
+
+STUCK_S = 60
 
 
 def test_every_picture_is_tried_and_those_that_cannot_be_drawn_are_told(tmp_path: Path) -> None:
@@ -57,3 +61,13 @@ def test_a_machine_that_cannot_draw_is_not_the_pictures_fault(tmp_path: Path) ->
     code = "import sys; sys.exit('libGL.so.1 is missing')"
     with pytest.raises(CannotDraw, match=r"libGL\.so\.1 is missing"):
         list(undrawn((sys.executable, "-c", code), [tmp_path / "a.svg"]))
+
+
+def test_a_process_that_reads_nothing_is_not_waited_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(checks, "READY_S", 0.5)
+    # More than a pipe takes.
+    files = [tmp_path / f"{number:0>200}.svg" for number in range(1_000)]
+    began = monotonic()
+    with pytest.raises(CannotDraw, match="does not answer"):
+        list(undrawn((sys.executable, "-c", f"import time; time.sleep({STUCK_S})"), files))
+    assert monotonic() - began < STUCK_S

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import signal
 import sqlite3
-import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from itertools import pairwise
@@ -23,6 +22,7 @@ from kiosk.store.maintenance import FOLDER, back_up, list_backups
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.tombstones import FILE as LIST
+from tests.patience import PATIENCE_S, Program, limited
 from tests.store.visitors import BEGUN, COMPLETED
 from tests.store.writer import GONE
 
@@ -95,7 +95,7 @@ def test_a_worker_thread_copies_while_the_recorder_writes(folder: Path, into: Pa
         while not copying.done():
             recorder.append(many(2))
             written += 2
-        copies = copying.result()
+        copies = copying.result(PATIENCE_S)
     sizes = []
     for copy in copies:
         numbers = events_in(copy)
@@ -108,18 +108,17 @@ def test_a_worker_thread_copies_while_the_recorder_writes(folder: Path, into: Pa
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs a system that can fork")
-def test_a_process_that_writes_is_copied_as_it_goes(folder: Path, into: Path, writer: subprocess.Popen[str]) -> None:
-    assert writer.stdin is not None
-    assert writer.stdout is not None
-    writer.stdin.write(f"{folder}\n")
-    writer.stdin.flush()
-    process = int(writer.stdout.readline())
+def test_a_process_that_writes_is_copied_as_it_goes(folder: Path, into: Path, writer: Program) -> None:
     acknowledged, copies = [], []
-    for _ in range(4):
-        acknowledged += [int(writer.stdout.readline()) for _ in range(40)]
-        copies.append((acknowledged[-1], events_in(back_up(folder, into))))
-    os.kill(process, signal.SIGKILL)
-    acknowledged += [int(line) for line in iter(writer.stdout.readline, f"{GONE}\n")]
+    with limited(writer):
+        writer.stdin.write(f"{folder}\n")
+        writer.stdin.flush()
+        process = int(writer.stdout.readline())
+        for _ in range(4):
+            acknowledged += [int(writer.stdout.readline()) for _ in range(40)]
+            copies.append((acknowledged[-1], events_in(back_up(folder, into))))
+        os.kill(process, signal.SIGKILL)
+        acknowledged += [int(line) for line in iter(writer.stdout.readline, f"{GONE}\n")]
     for before, numbers in copies:
         assert numbers == list(range(1, len(numbers) + 1))
         assert before <= len(numbers) <= acknowledged[-1] + 2

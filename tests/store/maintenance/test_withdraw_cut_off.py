@@ -33,6 +33,7 @@ from kiosk.store.tombstones import FILE as TOMBSTONES
 from kiosk.store.tombstones import add_tombstones, read_tombstones
 from kiosk.store.verify import Verification, verify
 from kiosk.store.withdrawal import check_none_is_back, find_withdrawal, finish_at_rest, withdraw
+from tests.patience import limited, serving
 from tests.samples import plan
 from tests.store.visitors import COMPLETED, rows, saying
 
@@ -85,7 +86,7 @@ def code(pristine: tuple[Path, str]) -> str:
 @pytest.fixture(scope="module")
 def cut() -> Iterator[Cut]:
     """Withdraw up to a step or a page; returns the exit code, or the signal that ended it."""
-    with subprocess.Popen(
+    with serving(
         [sys.executable, "-m", "tests.store.maintenance.cutting"],
         cwd=ROOT,
         stdin=subprocess.PIPE,
@@ -94,14 +95,13 @@ def cut() -> Iterator[Cut]:
     ) as program:
 
         def order(folder: Path, code: str, *, step: int | None = None, page: int | None = None) -> int:
-            assert program.stdin is not None
-            assert program.stdout is not None
-            program.stdin.write(json.dumps({"folder": str(folder), "code": code, "step": step, "page": page}) + "\n")
-            program.stdin.flush()
-            return int(program.stdout.readline())
+            with limited(program):
+                asked = {"folder": str(folder), "code": code, "step": step, "page": page}
+                program.stdin.write(json.dumps(asked) + "\n")
+                program.stdin.flush()
+                return int(program.stdout.readline())
 
         yield order
-        program.terminate()
 
 
 def holding(folder: Path, *what: str) -> list[str]:

@@ -21,6 +21,8 @@ from typing import IO, Any
 from Xlib import Xatom
 from Xlib.display import Display
 
+from tests.patience import limited
+
 ROOT = Path(__file__).parents[3]
 SIZE = (1280, 720)
 START_S = 30
@@ -136,9 +138,10 @@ def x_server(desktop: Desktop) -> Iterator[dict[str, str]]:
     screen = "{}x{}x24".format(*SIZE)
     with ExitStack() as started:
         server = ["Xvfb", "-displayfd", str(writing), "-screen", "0", screen, "-nolisten", "tcp"]
-        started.enter_context(_ended(subprocess.Popen(server, pass_fds=(writing,), stderr=subprocess.DEVNULL)))
+        process = subprocess.Popen(server, pass_fds=(writing,), stderr=subprocess.DEVNULL)
+        started.enter_context(_ended(process))
         os.close(writing)
-        with os.fdopen(reading) as number:
+        with os.fdopen(reading) as number, limited(process):
             environment = os.environ | {"DISPLAY": f":{number.readline().strip()}", "QT_QPA_PLATFORM": "xcb"}
         if desktop is not Desktop.BARE:
             rules = SHIPPED if desktop is Desktop.SHIPPED else STOCK
@@ -174,7 +177,7 @@ def _running(command: list[str], environment: dict[str, str]) -> Iterator[Kiosk]
         assert process.stdin is not None
         process.stdin.close()
         process.wait(END_S)
-    listening.join()
+    listening.join(END_S)
     process.stdout.close()
 
 
