@@ -85,6 +85,10 @@ PageFrame {
         notes: [view.words["form-missing"], view.words["form-skipped"]]
         exemption: view.words["form-not-applicable"]
     }
+    LoneRating {
+        id: loneRating
+        page: shape
+    }
     PlainQuestions {
         id: plainQuestions
         page: shape
@@ -233,6 +237,7 @@ PageFrame {
                     words: view.words
                     page: shape
                     rows: ratingRows
+                    lone: loneRating
                     questions: plainQuestions
                     loosened: pane.loosened
                     grown: pane.grown

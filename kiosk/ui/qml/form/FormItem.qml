@@ -16,6 +16,7 @@ Item {
     required property var words
     required property PageShape page
     required property RatingRows rows
+    required property LoneRating lone
     required property PlainQuestions questions
     // How much of what can be added to the distances of this page is added, from 0 to 1, and how much higher than usual
     // options are.
@@ -53,11 +54,6 @@ Item {
     readonly property ChoiceList choices: way.item as ChoiceList
     // How high it is without all that, and how much can be added to the distances.
     readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asks + (way.active ? usualSpacing + (choices?.least ?? way.height) : 0)) + 2 * usualMargin
-    // How large the question of a card alone on its page is: as large as leaves it in few lines.
-    readonly property real soloText: {
-        const [sizes, most] = page.upright ? [[88, 80, 72, 68, 64, 60, 56], 3] : [[64, 62, 60, 58, 56], Math.max(1, page.widths.lines(item.shown, Theme.size(52), page.inner))]
-        return sizes.map(size => Theme.size(size)).find(size => page.widths.lines(item.shown, size, page.inner) <= most) ?? Theme.size(52)
-    }
     // How much height its question and its scale leave of what two lines and a scale of five points take: on such a page
     // all cards are as high, and cards and scales stand at the same places on all pages with as many. A question of one
     // line stands in the middle of the height of two.
@@ -65,10 +61,10 @@ Item {
     readonly property real leaves: lacks + (page.ample ? 2 * ((way.item as PointScale)?.inset ?? 0) : 0)
     readonly property real asks: told.height + leaves
     readonly property real addable: page.alone || beside || roomy !== null ? 0 : (page.ample ? 48 : 32) * Theme.unit
-    // A word that it is missed, which stands there, takes some of it: four such cards still fit an upright page.
-    readonly property real usualSpacing: roomy !== null ? roomy.spacing : page.alone ? (page.solo ? page.upright ? 4 * Theme.textSize : page.tight ? 2 : 3.5 : 2) * Theme.gap : (page.dense ? 4 : page.ample ? Theme.textSize > 1 ? 16 : missed ? 6 : 16 : page.easy ? 18 : page.airy ? 22 : columned ? 12 : page.calm ? 14 : 8) * Theme.unit
+    readonly property real usualSpacing: roomy?.spacing ?? (page.solo ? lone.spacing : page.alone ? 2 * Theme.gap : spacingUnits() * Theme.unit)
     readonly property real margin: usualMargin + addable / 2 * loosened
-    readonly property real usualMargin: bare ? 0 : roomy !== null ? roomy.margin : page.solo ? (page.tight ? 20 : page.upright ? 80 : 64) * Theme.unit : rows.own || rows.table ? Math.max((rows.table ? 4 : 10) * Theme.unit, rows.margin - taken / 2) : (beside ? page.dense ? 9 : 20 : page.dense ? 8 : page.tight ? 10 : page.ample ? missed ? 9 : 18 : page.easy ? inline ? 28 : 30 : page.airy ? 26 : columned ? inline ? ranged ? 16 : 8 : 16 : page.largeText ? 13 : 17) * Theme.unit
+    readonly property real usualMargin: bare ? 0 : roomy?.margin ?? (page.solo ? lone.margin
+        : rows.own || rows.table ? Math.max((rows.table ? 4 : 10) * Theme.unit, rows.margin - taken / 2) : marginUnits() * Theme.unit)
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
     readonly property real taken: rows.measured ? Math.max(0, told.height - rows.height) : 0
     // Letters have some air above them already; what stands below them does not.
@@ -78,6 +74,52 @@ Item {
         integer: number, text: letters, page: null
     })
 
+    // How far its question is from its scale or its options among other items, and its content from the card's edges.
+    // A word that it is missed takes some of both where cards are alike: four with that word still fit an upright page.
+    function spacingUnits(): real {
+        if (page.dense)
+            return 4
+        if (page.ample)
+            return missed && Theme.textSize <= 1 ? 6 : 16
+        if (page.easy)
+            return 18
+        if (page.airy)
+            return 22
+        return columned ? 12 : page.calm ? 14 : 8
+    }
+    function marginUnits(): real {
+        if (beside)
+            return page.dense ? 9 : 20
+        if (page.dense)
+            return 8
+        if (page.tight)
+            return 10
+        if (page.ample)
+            return missed ? 9 : 18
+        if (page.easy)
+            return inline ? 28 : 30
+        if (page.airy)
+            return 26
+        if (columned)
+            return inline && !ranged ? 8 : 16
+        return page.largeText ? 13 : 17
+    }
+    // How large the letters of its question are.
+    function asking(): real {
+        if (item.kind === "page")
+            return Theme.size(36)
+        if (page.solo)
+            return lone.asking(item.shown)
+        if (roomy !== null || columned)
+            return questions.asking
+        if (page.alone)
+            return Theme.heading
+        if (beside || item.kind === "slider" && rows.text > 0)
+            return missed ? rows.noted(item) : rows.text
+        if (page.dense)
+            return Theme.reading
+        return page.easy ? Theme.size(36) : page.airy ? Theme.size(38) : Theme.body
+    }
     // What is typed counts as done when the field is left, but not when a word over the screen takes the keyboard away.
     function done() {
         if (kiosk.bare)
@@ -187,9 +229,7 @@ Item {
                     text: box.item.shown
                     Accessible.name: box.item.text
                     font {
-                        pixelSize: box.item.kind === "page" ? Theme.size(36) : box.roomy !== null ? box.questions.asking : box.page.solo && !box.page.largeText ? box.soloText : box.page.alone ? Theme.heading
-                            : box.beside || (box.item.kind === "slider" && box.rows.text > 0) ? box.missed ? box.rows.noted(box.item) : box.rows.text
-                            : box.columned ? box.questions.asking : box.page.dense ? Theme.reading : box.page.easy ? Theme.size(36) : box.page.airy ? Theme.size(38) : Theme.body
+                        pixelSize: box.asking()
                         bold: box.item.kind !== "page"
                     }
                     lineHeight: box.item.kind === "page" ? 1.15 : box.page.ample || box.page.solo ? 0.92 : box.rows.closeness
@@ -337,12 +377,11 @@ Item {
             leftEnd: box.item.left
             rightEnd: box.item.right
             value: box.answer ?? 0
-            alone: box.page.alone
-            full: box.page.solo
+            lone: box.page.solo ? box.lone : null
             dense: box.page.dense
             tight: box.page.tight
             large: box.page.large
-            even: box.page.ample || box.page.solo && box.page.upright
+            even: box.page.ample
             joins: box.page.upright && !box.page.solo
             onChosen: point => box.form.rate(box.item.id, point)
         }
@@ -363,10 +402,9 @@ Item {
             none: box.words["form-none"]
             answered: box.answer !== undefined
             given: box.answer ?? 0
-            alone: box.page.alone
-            full: box.page.solo
+            lone: box.page.solo ? box.lone : null
             dense: box.page.dense || box.page.tight || (box.page.largeText && !box.page.large)
-            large: box.page.large && !box.page.alone
+            large: box.page.large
             onChosen: value => box.form.rate(box.item.id, value)
         }
     }

@@ -13,8 +13,8 @@ Item {
     required property string leftEnd
     required property string rightEnd
     required property int value         // the chosen point, 0 for none
-    required property bool alone        // whether the page belongs to it
-    property bool full: false           // whether its points have the width of a card on that page, from edge to edge
+    // How it looks if the page belongs to it: its points then have the width of the card, from edge to edge; else null.
+    property LoneRating lone: null
     required property bool dense
     required property bool tight
     // Whether there is much height for the page.
@@ -39,7 +39,7 @@ Item {
     signal chosen(int point)
 
     readonly property bool pictured: pictures.length > 0
-    readonly property real wish: (full ? 144 : alone ? 132 : beside ? dense ? 72 : 92 : dense ? 58 : tight ? 66 : large ? 112 : 76) * Theme.unit * (pictured ? 1.25 : 1)
+    readonly property real wish: (lone?.point ?? (beside ? dense ? 72 : 92 : dense ? 58 : tight ? 66 : large ? 112 : 76) * Theme.unit) * (pictured ? 1.25 : 1)
     // Whether there are more points than stand well in a row with the words for their ends: they then have its width,
     // from edge to edge, and the words stand below them.
     readonly property bool many: points > 7 && !pictured
@@ -47,14 +47,14 @@ Item {
     readonly property bool joined: joins && many
     // Two fields share the line between them.
     readonly property real line: Math.max(1, Math.round(3 * Theme.unit))
-    readonly property real size: full ? Math.min(wish, filling) : joined ? Math.floor(width) / points : spread ? Math.min(76 * Theme.unit, filling) : (flank ?? table)?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
+    readonly property real size: lone ? Math.min(wish, filling) : joined ? Math.floor(width) / points : spread ? Math.min(76 * Theme.unit, filling) : (flank ?? table)?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
     // How high they are: much smaller ones that are given that height take it, and are easier to hit.
-    readonly property bool evened: even && below && !alone && !pictured
-    readonly property bool long: joined || (evened ? size < 0.85 * wish : full && !pictured && size < 0.7 * wish)
-    readonly property real tall: long ? (full && even ? 230 * Theme.unit : wish) : size
+    readonly property bool evened: even && below && !pictured
+    readonly property bool long: joined || (evened ? size < 0.85 * wish : lone !== null && !pictured && size < 0.7 * wish)
+    readonly property real tall: long ? lone?.tall ?? wish : size
     // How much of that height they leave, above themselves and below.
     readonly property real inset: evened ? Math.max(0, (wish - tall) / 2) : 0
-    readonly property real filling: width / (points + (even ? full ? 0.17 : 0.113 : full ? 0.22 : 0.24) * (points - 1))
+    readonly property real filling: width / (points + (lone?.apart ?? (even ? 0.113 : 0.24)) * (points - 1))
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real most: 250 * Theme.unit * Theme.textSize
     readonly property bool roomy: lowest.implicitWidth + highest.implicitWidth + 2 * Theme.gap + points * size + least <= width
@@ -62,8 +62,8 @@ Item {
     readonly property real rightRoom: crowned ? Math.max(flank?.right ?? 0, highest.implicitWidth) : flank ? flank.right : roomy ? highest.implicitWidth : Math.min(highest.implicitWidth, most)
     readonly property real spare: width - leftRoom - rightRoom - 2 * Theme.gap - points * size
     readonly property real least: 0.42 * size * (points - 1)
-    readonly property bool below: spread || joined || !flank && (alone || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least))
-    readonly property real gap: joined ? 0 : full ? (width - points * size) / Math.max(1, points - 1) : flank && !spread ? spare / Math.max(1, points - 1) : beside || many && below && !alone ? (width - points * size) / Math.max(1, points - 1) : pictured ? 0.4 * size : alone ? (many ? 0.24 : 0.25) * size
+    readonly property bool below: spread || joined || !flank && (lone !== null || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least))
+    readonly property real gap: joined ? 0 : flank && !spread ? spare / Math.max(1, points - 1) : lone || beside || many && below ? (width - points * size) / Math.max(1, points - 1) : pictured ? 0.4 * size
         : Math.min(1.6 * size, Math.max(0.25 * size, (below ? width - points * size : spare) / Math.max(1, points - 1)))
     readonly property real span: points * size + (points - 1) * gap
 
@@ -88,7 +88,7 @@ Item {
         text: scale.leftEnd
         horizontalAlignment: scale.flank && !scale.spread ? Text.AlignRight : Text.AlignLeft
         lineHeight: scale.flank && !scale.spread ? 0.9 : 1
-        font.pixelSize: scale.flank?.end ?? (scale.own ? Theme.size(28) : scale.full ? Theme.size(Theme.textSize > 1.15 ? 38 : 48) : scale.large ? Theme.size(Theme.textSize > 1.15 ? 30 : 34) : scale.beside || scale.alone ? Theme.size(30) : Theme.small)
+        font.pixelSize: scale.flank?.end ?? (scale.own ? Theme.size(28) : scale.lone?.end ?? (scale.large ? Theme.size(Theme.textSize > 1.15 ? 30 : 34) : scale.beside ? Theme.size(30) : Theme.small))
         wrapMode: Text.Wrap
         color: Theme.ink
     }
@@ -160,7 +160,7 @@ Item {
                         visible: !scale.pictured
                         readonly property real reach: Math.min(scale.size, scale.tall)
                         text: point.number
-                        font { pixelSize: Math.min(scale.full ? Theme.size(56) : Theme.heading, Math.max((scale.full && scale.long ? 0.62 : scale.inset > 0 || scale.long || scale.full && scale.many ? 0.48 : 0.42) * reach, Math.min(Theme.body, 0.5 * reach))); bold: true }
+                        font { pixelSize: Math.min(scale.lone ? Theme.size(56) : Theme.heading, Math.max((scale.lone && scale.long ? 0.6 : scale.inset > 0 || scale.long || scale.lone && scale.many ? 0.48 : 0.42) * reach, Math.min(Theme.body, 0.5 * reach))); bold: true }
                         color: point.on ? Theme.white : Theme.ink
                     }
                     Image {

@@ -17,8 +17,8 @@ Item {
     required property string none       // "nothing is chosen yet"
     required property bool answered
     required property int given
-    required property bool alone
-    property bool full: false           // whether it has the width of a card on that page
+    // How it looks if the page belongs to it; else null.
+    property LoneRating lone: null
     required property bool dense        // whether there is little height for it
     // Whether there is much height for it.
     property bool large: false
@@ -36,14 +36,14 @@ Item {
     readonly property bool spread: flank !== null && tall >= 112 * Theme.unit + 1.37 * flank.end
         && Math.max(lower.implicitWidth, upper.implicitWidth) < width / 2 - Theme.gap
     // How high the line is: as the points of the others, and as easy to hit.
-    readonly property real rail: spread ? 84 * Theme.unit : flank?.point ?? (full ? 112 : own ? 92 : dense ? 64 : large ? 112 : alone ? 100 : 76) * Theme.unit
+    readonly property real rail: spread ? 84 * Theme.unit : flank?.point ?? (lone ? 112 : own ? 92 : dense ? 64 : large ? 112 : 76) * Theme.unit
     // The handle, with room around it in the line.
     readonly property real thickness: rail - 12 * Theme.unit
 
     readonly property real words: Math.max(lower.height, upper.height)
     readonly property real apart: (spread ? 4 : own ? 6 : large && Theme.textSize <= 1.15 ? 14 : 12) * Theme.unit
     // Among other kinds of items the ends stand beside the line.
-    readonly property bool level: !own && !full && !alone && !large
+    readonly property bool level: !own && !lone && !large
     readonly property real most: 250 * Theme.unit * Theme.textSize
     readonly property bool below: spread || !flank && (!level || width < 4 * most)
     readonly property real leftRoom: below ? 0 : flank ? flank.left + Theme.gap : Math.min(lower.implicitWidth, most) + Theme.gap
@@ -60,7 +60,7 @@ Item {
         text: scale.leftEnd
         horizontalAlignment: scale.flank && !scale.spread ? Text.AlignRight : Text.AlignLeft
         lineHeight: scale.flank && !scale.spread ? 0.9 : 1
-        font.pixelSize: scale.flank?.end ?? Theme.size(scale.own ? 28 : Theme.textSize > 1.15 ? (scale.full ? 38 : 30) : scale.full ? 48 : scale.large ? 34 : 30)
+        font.pixelSize: scale.flank?.end ?? scale.lone?.end ?? Theme.size(scale.own ? 28 : scale.large && Theme.textSize <= 1.15 ? 34 : 30)
         wrapMode: Text.Wrap
         color: Theme.ink
     }
@@ -90,7 +90,7 @@ Item {
         x: Theme.across(scale.leftRoom, width, scale.width)
         y: scale.below ? 0 : (scale.height - height) / 2
         // On a page of several, its ends stand at the same edges as those of the points.
-        width: scale.alone && !scale.full ? Math.min(900 * Theme.unit, scale.width) : scale.width - scale.leftRoom - scale.rightRoom
+        width: scale.width - scale.leftRoom - scale.rightRoom
         height: scale.rail
         padding: 0
         // Where the line is as wide as the points, its ends stand below the middles of the first and the last.
