@@ -16,8 +16,7 @@ QtObject {
     readonly property var rows: [page.points.slice(0, 1), two, ...(rest.length === 0 ? [] : !split && runOn(size) ? rest.map(point => [point]) : [rest])]
     // How large the headings on the cards are, how wide the drawings, and how large the code below them at most: the first
     // that has room. Headings of two lines come first, then a large code, large drawings and large letters.
-    readonly property var found: page.points.length < 3 || !page.drawn ? undefined
-        : trials.find(fits)
+    readonly property var found: page.points.length < 3 || !page.drawn ? undefined : trials.find(fits)
     readonly property real size: found === undefined ? 0 : Theme.size(found.letters)
     readonly property real side: found === undefined ? 0 : found.side * Theme.unit
     readonly property real mostCode: found === undefined ? 0 : codeOf(found)
@@ -25,9 +24,9 @@ QtObject {
     readonly property bool footed: found?.footed ?? false
     readonly property var trials: page.upright
         ? [...tried(3, [260, 220, 190], [44], [250]), ...tried(3, [220, 180, 150], [42, 40], [250]), ...tried(3, [180, 150, 120], [38, 36, 34, 32], [250])]
-        : [...(page.coded ? tried(2, [240, 220, 200, 180, 160], [44, 42, 40], [230, 210], true) : []),
+        : [...(page.coded ? tried(2, [240, 220, 200, 180, 160, 140], [44, 42, 40], [230, 210], true) : []),
             ...tried(2, [188, 168, 150], [42, 40, 38]), ...tried(3, [188, 150], [42, 40, 38]), ...tried(3, [150, 120], [36, 34, 32])]
-    // On a small screen a smaller one is still of squares that a telephone can tell apart.
+    // On a small screen its squares are larger, where there is room: a telephone has to tell them apart.
     function codeOf(trial: var): real {
         return Math.max(trial.code * Theme.unit, Math.min(290 * Theme.unit, 4 * page.squares))
     }
