@@ -49,7 +49,11 @@ console-today-target = Games of the target
 console-today-forecast = about { $hours } h more at today’s pace
 console-today-no-pace = too few today to tell how long it takes
 console-today-stage = Now
-console-today-minutes = for { $minutes } min
+console-today-minutes =
+    { $minutes ->
+        [0] for less than 1 min
+       *[other] for { $minutes } min
+    }
 console-shortcuts = Shortcuts
 console-shortcuts-held = Shortcuts: { $keys } and …
 console-shortcut-panel = this panel
@@ -68,7 +72,7 @@ console-test-the-voice = Test the voice
 console-test-sentence = Good morning. If you hear this sentence, the voice works.
 console-supervisor = Supervisor
 console-supervisor-there = running
-console-supervisor-none = none
+console-supervisor-none = not running
 console-supervisor-remedy = Start the kiosk with one
 console-remote = From afar
 console-remote-there = the status is published
@@ -122,7 +126,7 @@ console-policy = Policy
 console-study = Study
 console-pin-line-name = PIN
 console-pin-set = is asked for
-console-pin-none = none
+console-pin-none = not set
 console-pin-remedy = Set one before you open
 console-screen = Screen
 

@@ -49,7 +49,11 @@ console-today-target = Partidas previstas
 console-today-forecast = unas { $hours } h más al ritmo de hoy
 console-today-no-pace = hoy aún son pocas para estimarlo
 console-today-stage = Ahora
-console-today-minutes = desde hace { $minutes } min
+console-today-minutes =
+    { $minutes ->
+        [0] desde hace menos de 1 min
+       *[other] desde hace { $minutes } min
+    }
 console-shortcuts = Atajos
 console-shortcuts-held = Atajos: { $keys } y …
 console-shortcut-panel = este panel

@@ -49,7 +49,11 @@ console-today-target = Partite previste
 console-today-forecast = ancora circa { $hours } h al ritmo di oggi
 console-today-no-pace = oggi ancora troppo poche per una stima
 console-today-stage = Adesso
-console-today-minutes = da { $minutes } min
+console-today-minutes =
+    { $minutes ->
+        [0] da meno di 1 min
+       *[other] da { $minutes } min
+    }
 console-shortcuts = Tasti rapidi
 console-shortcuts-held = Tasti rapidi: { $keys } e …
 console-shortcut-panel = questo pannello

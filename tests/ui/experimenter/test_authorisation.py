@@ -292,7 +292,7 @@ def test_without_a_pin_nothing_is_asked_but_the_reason(make_assigner: MakeDesk) 
     assigner.shortcut(Action.PANEL)
     assert assigner.panel.is_open
     lines = assigner.panel.property("health")["matters"]
-    assert [line["message"] for line in lines if line["name"] == "PIN"] == ["none"]
+    assert [line["message"] for line in lines if line["name"] == "PIN"] == ["not set"]
 
 
 def test_a_action_that_the_session_has_outrun_is_refused(make_assigner: MakeDesk) -> None:

@@ -96,8 +96,8 @@ def test_every_deviation_has_a_line_in_every_language(language: str) -> None:
             "Clock",
             "was set by -300 s since the start",
         ),
-        (replace(WELL, has_pin=False), "PIN", "none"),
-        (replace(WELL, supervised=False), "Supervisor", "none"),
+        (replace(WELL, has_pin=False), "PIN", "not set"),
+        (replace(WELL, supervised=False), "Supervisor", "not running"),
         (replace(WELL, screen="the desktop gets some keys", screen_well=False), "Screen", "the desktop gets some keys"),
     ],
 )

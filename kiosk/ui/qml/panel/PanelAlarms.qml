@@ -29,8 +29,8 @@ PanelSection {
                 objectName: "alarm-words"
                 width: row.width - mark.width - when.width - 2 * row.spacing
                 text: row.modelData.words
-                font.pixelSize: alarms.size
-                color: row.modelData.holds ? Theme.deepAmber : Theme.faintInk
+                font { pixelSize: alarms.size; bold: row.modelData.holds }
+                color: row.modelData.holds ? Theme.ink : Theme.faintInk
                 wrapMode: Text.Wrap
             }
         }

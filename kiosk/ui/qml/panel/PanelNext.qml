@@ -17,14 +17,19 @@ Item {
     // As large as on the first page: as large as goes, as long as the page does not scroll for it. Before letters get
     // smaller, the answers stand closer. In whole pixels, as letters are drawn.
     readonly property real usual: (wide ? 1.15 : 1) * Theme.dense
-    readonly property list<real> sizes: Theme.textSize > 1.15 ? [] : [30, 29, 28, 27, 26].map(each => Math.round(each * Theme.unit)).filter(each => each > usual)
-    readonly property real size: sizes.find(each => deep(each, true) <= seen) ?? usual
+    readonly property list<real> sizes: Theme.textSize > 1.15 ? [] : [36, 34, 32, 30, 29, 28, 27, 26].map(each => Math.round(each * Theme.unit)).filter(each => each > usual)
+    readonly property real size: sizes.find(each => (headed(each) || each <= 30 * Theme.unit) && deep(each, true) <= seen) ?? usual
     readonly property bool close: deep(size, false) > seen
     readonly property real crown: names.visible ? names.height : 0
     readonly property real half: wide ? Math.floor((width - space) * 0.5) : width
 
     height: wide ? Math.max(left.height, right.height) : left.height + space + right.height
 
+    // Whether the first heading has one line beside its button.
+    function headed(size: real): bool {
+        const button = choices.conditions.length > 0 ? wordWidths.plain(words[choices.named ? "console-names-hide" : "console-names-show"], 0.95 * size) + 38 * Theme.unit + 0.5 * Theme.gap : 0
+        return wordWidths.bold(words["console-next-session"], 1.12 * size) * 1.02 + button <= half - 2 * later.inset
+    }
     function tall(close: bool): real {
         return (close ? 68 : 80) * Theme.unit
     }
@@ -45,12 +50,12 @@ Item {
     function deep(size: real, close: bool): real {
         const width = half - 2 * later.inset, step = 10 * Theme.unit
         const line = Math.ceil(letters.height * Math.round(size) / 100)
-        const headed = (title, aside, crown) => Math.max(crown, Math.ceil(wordWidths.lines(title, 1.12 * size, width - aside) * 1.12 * line)) + later.edges + 1
-        const listed = (counts, title, crown) => headed(title, 0, crown) + counts.reduce((sum, each) => sum + each * line, 0) + Math.max(0, counts.length - 1) * step
+        const heading = (title, aside, crown) => Math.max(crown, Math.ceil(wordWidths.lines(title, 1.12 * size, width - aside) * 1.12 * line)) + later.edges + 1
+        const listed = (counts, title, crown) => heading(title, 0, crown) + counts.reduce((sum, each) => sum + each * line, 0) + Math.max(0, counts.length - 1) * step
         const crown = choices.conditions.length > 0 ? Math.max(58 * Theme.unit, line + 18 * Theme.unit) : 0
         const asked = [["condition", choices.conditions], ["embodiment", choices.embodiments], ["language", choices.languages], ["volume", choices.volumes]].filter(([_, options]) => options.length > 0)
         const aside = crown > 0 ? Math.min(0.6 * half, wordWidths.plain(names.words, size) + 38 * Theme.unit) + 0.5 * Theme.gap : 0
-        const chosen = headed(words["console-next-session"], aside, crown) + (asked.length - 1) * apart(close)
+        const chosen = heading(words["console-next-session"], aside, crown) + (asked.length - 1) * apart(close)
             + asked.reduce((sum, [name, options]) => {
                 const rows = rowsOf(options, size, width)
                 return sum + wordWidths.plainLines(words["console-" + name], size, width) * line + 8 * Theme.unit
@@ -59,12 +64,12 @@ Item {
         const booth = listed(panel.health.more.map(each => {
             const named = Math.min(0.29 * width, 6.5 * size)
             return Math.max(wordWidths.lines(each.name, size, named), wordWidths.plainLines(each.message, size, width - named - 1.25 * size - 2 * step))
-        }), words["console-booth"], 0)
+        }), words["console-booth"], wide ? crown : 0)
         const keys = Math.max(0, ...panel.shortcuts.rows.map(row => wordWidths.bold(row.keys, size)))
         const told = panel.shortcuts.rows.map(row => wordWidths.plainLines(row.words, size, (width - Theme.gap) / 2 - keys - 16 * Theme.unit))
         const known = told.length > 0 ? listed(told.filter((_, at) => at % 2 === 0).map((each, at) => Math.max(each, told[2 * at + 1] ?? 0)), panel.shortcuts.title, 0) + space : 0
-        const after = known + Math.max(tall(close), 1.45 * size + 18 * Theme.unit)
-        const before = chosen + space + booth
+        const after = booth + space + known + Math.max(tall(close), 1.45 * size + 18 * Theme.unit)
+        const before = chosen
         return Math.ceil(wide ? Math.max(before, after) : before + space + after)
     }
     WordWidths {
@@ -140,15 +145,6 @@ Item {
                 onPicked: value => next.panel.wish("volume", value)
             }
         }
-        PanelSection {
-            width: parent.width
-            title: next.words["console-booth"]
-            size: next.size
-            Repeater {
-                model: next.panel.health.more
-                delegate: PanelLine { required property var modelData; line: modelData; words: next.words; width: parent.width; size: next.size }
-            }
-        }
     }
     Column {
         id: right
@@ -156,6 +152,17 @@ Item {
         y: next.wide ? 0 : left.height + next.space
         width: left.width
         spacing: next.space
+        PanelSection {
+            width: parent.width
+            title: next.words["console-booth"]
+            size: next.size
+            // Its heading is level with the one beside it.
+            crown: next.wide ? next.crown : 0
+            Repeater {
+                model: next.panel.health.more
+                delegate: PanelLine { required property var modelData; line: modelData; words: next.words; width: parent.width; size: next.size }
+            }
+        }
         PanelShortcuts { width: parent.width; shown: next.panel.shortcuts; size: next.size }
         // Apart from what is pressed all day.
         PanelButton {

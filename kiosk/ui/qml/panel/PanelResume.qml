@@ -22,6 +22,8 @@ PanelSection {
                 objectName: "resume-" + modelData.number
                 enabled: !resume.panel.choices.underWay
                 words: modelData.label
+                least: 76 * Theme.unit
+                font.pixelSize: 0.94 * resume.size
                 onClicked: resume.panel.wish("resume", modelData.number)
             }
         }

@@ -22,11 +22,13 @@ Item {
     readonly property real side: Math.floor(wide ? width * 0.31 : width)
     readonly property real main: wide ? width - side - space : width
     readonly property real below: now.height + space
+    // On an upright page the checks stand clear of what ends a session.
+    readonly property real after: wide ? space : Math.round(1.8 * space)
     readonly property bool warned: notice.matters.length > 0
     readonly property bool allWell: !warned && panel.alarms.every(alarm => !alarm.holds)
     // What a page has left is shared among the rows of its parts.
     readonly property real free: Math.floor(seen - below)
-    readonly property real spread: wide || !tabled ? 0 : Math.max(0, Math.min(0.4 * acting, 0.5 * (free - (warned ? notice.height + space : 0) - acting - space - checked(size))))
+    readonly property real spread: wide || !tabled ? 0 : Math.max(0, Math.min(0.4 * acting, 0.5 * (free - (warned ? notice.height + space : 0) - acting - after - checked(size))))
     readonly property real acting: actions.deep(size)
 
     // The keyboard stays on an action whose button goes from one place to the other.
@@ -49,8 +51,10 @@ Item {
         const alarmed = panel.alarms.length === 0 ? 0 : alarms.edges + (1 + panel.alarms.length) * 1.12 * line + panel.alarms.length * alarms.apart
         const parts = [alarmed, warned ? notice.deep(size) : 0, checked(size)].filter(each => each > 0)
         const told = parts.reduce((sum, each) => sum + each + space, -space)
+        const waiting = panel.records.resumable.length
+        const done = actions.deep(size) + (waiting === 0 ? 0 : space + alarms.edges + 1.12 * line + waiting * Math.max(76 * Theme.unit, line + 18 * Theme.unit) + (waiting - 1) * 9 * Theme.unit)
         const top = now.deep(size) + space
-        return top + (wide ? Math.max(told, actions.deep(size)) : told + space + actions.deep(size))
+        return top + (wide ? Math.max(told, done) : told + space + done + after - space)
     }
 
     height: wide ? Math.max(right.y + right.height, health.visible ? health.y + health.height : left.y + left.height) : health.visible ? health.y + health.height : right.y + right.height
@@ -98,11 +102,11 @@ Item {
             // Beside the others it ends where the page does, so that what stands at its foot is seen.
             least: today.panel.records.resumable.length > 0 ? 0 : today.wide ? today.free : today.acting + today.spread
         }
-        PanelResume { width: parent.width; panel: today.panel }
+        PanelResume { width: parent.width; panel: today.panel; size: today.size }
     }
     PanelHealth {
         id: health
-        y: today.wide ? left.y + left.height + (left.height > 0 ? today.space : 0) : right.y + right.height + today.space
+        y: today.wide ? left.y + left.height + (left.height > 0 ? today.space : 0) : right.y + right.height + today.after
         width: today.main
         panel: today.panel
         size: today.size
