@@ -21,6 +21,7 @@ class Program(subprocess.Popen[Any]):
 
     stdin: IO[Any]
     stdout: IO[Any]
+    stderr: IO[Any]
 
 
 @contextmanager

@@ -7,11 +7,13 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from time import monotonic
 
 import pytest
 
 from kiosk.sd_notify import NotifySocketListener
 from kiosk.supervisor import LEFT, REFUSED, Supervisor, SupervisorEvent, SupervisorEventKind, Timeouts
+from tests.patience import PATIENCE_S
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="the actors know Unix only")
 
@@ -64,10 +66,11 @@ def keep(
     listening: Listening = lambda _supervisor, _happening: None,
 ) -> Night:
     """Keep a kiosk that acts like this until the supervisor ends."""
-    night = Night(folder)
+    night, deadline = Night(folder), monotonic() + PATIENCE_S
 
     def tell(happening: SupervisorEvent) -> None:
         night.told.append(happening)
+        assert monotonic() < deadline, f"the supervisor does not end: {night.what()[-6:]}"
         listening(supervisor, happening)
 
     supervisor = Supervisor(actor(folder / "kiosk", *acts), actor(folder / "calm", *calm), tell, patience)
