@@ -399,14 +399,30 @@ def test_the_button_that_answers_a_matter_is_as_high_as_the_actions_and_stands_t
     assert middles[0] == pytest.approx(middles[1], abs=ROUNDED)
 
 
-def test_what_is_to_be_typed_elsewhere_is_quieter_than_what_to_do(window: Window) -> None:
-    show(window, "en", WIDE)
+@pytest.mark.parametrize("size", [WIDE, UPRIGHT])
+def test_what_is_to_be_typed_elsewhere_is_quieter_than_what_to_do(window: Window, size: tuple[int, int]) -> None:
+    show(window, "en", size)
     (notice,) = of_kind(window.shown.contentItem(), "PanelNotice")
     shown = {words_of(text): text for text in texts(notice)}
     remedy, command = shown["Set one before you open"], shown["recollect study set-pin"]
     assert command.property("color") != remedy.property("color")
-    assert level(command) == level(remedy)
-    assert command.mapToScene(QPointF()).x() > remedy.mapToScene(QPointF(remedy.width(), 0)).x()
+    # In a column of its own it stands below, otherwise behind.
+    if size == WIDE:
+        assert level(command) > level(remedy)
+    else:
+        assert level(command) == level(remedy)
+        assert command.mapToScene(QPointF()).x() > remedy.mapToScene(QPointF(remedy.width(), 0)).x()
+
+
+def test_what_is_done_elsewhere_stands_in_two_columns_in_line_with_the_checks(window: Window) -> None:
+    show(window, "en", WIDE, health=with_the_copy("en"))
+    (notice,), (checks,) = (of_kind(window.shown.contentItem(), f"Panel{name}") for name in ("Notice", "Health"))
+    starts = [
+        sorted({round(mark.mapToScene(QPointF()).x()) for mark in of_kind(each, "PanelMark")})
+        for each in (notice, checks)
+    ]
+    assert len(starts[0]) == 2
+    assert starts[0] == pytest.approx(starts[1], abs=ROUNDED)
 
 
 @pytest.mark.parametrize(("matters", "listed", "size", "language"), in_turn([0, 2, 3], [False, True], LAYOUTS))

@@ -12,12 +12,15 @@ Rectangle {
     readonly property var matters: panel.health.matters
     // The actions that answer one of them: their buttons stand here, and not among the others.
     readonly property var answered: matters.map(matter => matter.action ?? "").filter(action => action !== "")
+    readonly property var rest: matters.filter(matter => !matter.action)
+    // In line with those of the checks below.
+    readonly property int columns: columnsOf(size)
+    readonly property real gutter: Math.round(1.6 * Theme.gap)
     // The bar at its edge has the colour that warns; the ground is pale.
     readonly property real bar: 14 * Theme.unit
     readonly property real inset: Math.round(1.4 * Theme.gap)
     readonly property real mark: 1.7 * size
-    readonly property real room: width - 2 * inset - mark
-    readonly property real between: (Theme.upright ? 18 : 12) * Theme.unit
+    readonly property real between: 18 * Theme.unit
     readonly property real answer: 0.94 * size
     // As high as the other buttons of the page.
     readonly property real least: (Theme.upright ? 84 : 76) * Theme.unit
@@ -42,17 +45,31 @@ Rectangle {
         const room = width - 2 * inset - 1.7 * size
         return matters.every(matter => !matter.action || pressed(matter, size) + 1.02 * wordWidths.bold(said(matter), size) + Theme.gap <= room)
     }
+    // What is done elsewhere stands in two columns, where that breaks no line of it.
+    function columnsOf(size: real): int {
+        const room = each(2) - 1.7 * size
+        const fits = matter => 1.02 * Math.max(wordWidths.bold(said(matter), size), wordWidths.plain(matter.remedy, 0.94 * size), wordWidths.plain(matter.command ?? "", 0.94 * size)) <= room
+        return !Theme.upright && rest.length > 1 && rest.every(fits) ? 2 : 1
+    }
+    // How wide each of so many columns is.
+    function each(columns: int): real {
+        return Math.floor((width - 2 * inset - (columns - 1) * gutter) / columns)
+    }
     // How high it is if it is written so large.
     function deep(size: real): real {
-        const room = width - 2 * inset - 1.7 * size, line = each => Math.ceil(1.4 * each)
-        const rows = matters.map(matter => {
+        const line = each => Math.ceil(1.4 * each), columns = columnsOf(size)
+        const high = matter => {
+            const room = (matter.action ? each(1) : each(columns)) - 1.7 * size
             const beside = aside(matter, size, room), own = beside ? room - pressed(matter, size) - Theme.gap : room
             const words = wordWidths.lines(said(matter), size, own) * line(size)
             const told = matter.action || !matter.remedy ? 0 : toldLines(matter, 0.94 * size, own) * line(0.94 * size)
             const button = matter.action ? Math.max(least, line(size) + 18 * Theme.unit) : 0
             return beside ? Math.max(button, words) : words + told + button
-        })
-        return Math.ceil(rows.reduce((sum, each) => sum + each, 0) + (matters.length - 1) * between + 1.3 * Theme.gap)
+        }
+        const rows = matters.filter(matter => matter.action).map(high)
+        for (let at = 0; at < rest.length; at += columns)
+            rows.push(Math.max(...rest.slice(at, at + columns).map(high)))
+        return Math.ceil(rows.reduce((sum, each) => sum + each, 0) + (rows.length - 1) * between + 1.3 * Theme.gap)
     }
     function toldLines(matter: var, size: real, room: real): int {
         const parts = [matter.remedy, matter.command ?? ""].filter(text => text !== "")
@@ -73,10 +90,11 @@ Rectangle {
         id: row
         property var matter: null
         readonly property string action: matter?.action ?? ""
-        readonly property bool aside: matter !== null && notice.aside(matter, notice.size, notice.room)
+        readonly property bool aside: matter !== null && notice.aside(matter, notice.size, row.room)
         property alias button: button
         visible: matter !== null
-        width: rows.width
+        width: notice.each(1)
+        readonly property real room: width - notice.mark
         height: aside ? Math.max(words.height, button.height) : words.height + (action === "" ? 0 : button.height + 6 * Theme.unit)
         PanelMark {
             y: words.y
@@ -88,7 +106,7 @@ Rectangle {
             id: words
             x: notice.mark
             y: row.aside ? Math.floor((row.height - height) / 2) : 0
-            width: row.aside ? notice.room - button.width - Theme.gap : notice.room
+            width: row.aside ? row.room - button.width - Theme.gap : row.room
             PlainText {
                 width: parent.width
                 text: row.matter === null ? "" : notice.said(row.matter)
@@ -126,7 +144,7 @@ Rectangle {
             visible: row.action !== ""
             x: row.aside ? row.width - width : notice.mark
             y: row.aside ? Math.floor((row.height - height) / 2) : words.height + 6 * Theme.unit
-            width: Math.min(Math.ceil(implicitWidth), notice.room)
+            width: Math.min(Math.ceil(implicitWidth), row.room)
             enabled: row.action !== "backup" || notice.panel.choices.backup === ""
             least: notice.least
             filled: true
@@ -168,11 +186,18 @@ Rectangle {
             id: backup
             matter: notice.matters.find(matter => matter.action === "backup") ?? null
         }
-        Repeater {
-            model: notice.matters.filter(matter => !matter.action)
-            delegate: Matter {
-                required property var modelData
-                matter: modelData
+        Grid {
+            visible: notice.rest.length > 0
+            columns: notice.columns
+            columnSpacing: notice.gutter
+            rowSpacing: notice.between
+            Repeater {
+                model: notice.rest
+                delegate: Matter {
+                    required property var modelData
+                    matter: modelData
+                    width: notice.each(notice.columns)
+                }
             }
         }
     }
