@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from itertools import pairwise
 
 import pytest
 from PySide6.QtCore import QRectF, Qt
@@ -34,6 +35,12 @@ MIXED = SHORT.model_copy(update={"purposes": PAGE.purposes[::-1]})
 
 WORDS = CATALOGUES | {"de": Catalogue(ASSETS / "templates" / "two-languages" / "de")}
 
+SHEETS = [
+    *(f"consent/study/{language}.toml" for language in ("en", "it", "es")),
+    "templates/two-languages/information/de.toml",
+]
+"""The consent of the shipped sheets."""
+
 Done = list[object]
 
 
@@ -49,6 +56,11 @@ def done(booth: Booth) -> Done:
     booth.app.screens.kiosk.show("consent")
     booth.settle()
     return did
+
+
+def read_sheet(sheet: str) -> ConsentPage:
+    """Return the consent of a sheet."""
+    return ConsentPage.model_validate(tomllib.loads((ASSETS / sheet).read_text(encoding="utf-8"))["consent"])
 
 
 def says(item: QQuickItem, text: str) -> bool:
@@ -333,14 +345,34 @@ def test_on_an_upright_screen_both_answers_share_the_width_and_back_stands_where
 
 
 @pytest.mark.usefixtures("done")
+@pytest.mark.parametrize("sheet", SHEETS)
+@pytest.mark.parametrize("size", [(1920, 1080), (1080, 1920)], ids=["wide", "upright"])
+def test_larger_texts_make_no_letters_of_a_box_smaller_and_keep_the_card(
+    booth: Booth, qtbot: QtBot, size: tuple[int, int], sheet: str
+) -> None:
+    language = sheet.rpartition("/")[2].removesuffix(".toml")
+    window = show_short(booth, qtbot, language, size)
+    booth.app.screens.consent.show(read_sheet(sheet))
+    booth.app.screens.kiosk.offer_back(offered=True)
+    letters = []
+    for scale in (1.0, 1.15, 1.3):
+        window.setProperty("textSize", scale)
+        booth.settle()
+        assert booth.sees("consent-needed")
+        assert not booth.sees("more")
+        (pixels,) = {
+            text.property("font").pixelSize()
+            for text in texts(window.contentItem())
+            if lies_in(text, "TickBox") and text.objectName() != "tag"
+        }
+        letters.append(pixels)
+    # Letters are set on whole pixels.
+    assert all(after >= before - 1 for before, after in pairwise(letters)), letters
+
+
+@pytest.mark.usefixtures("done")
 @pytest.mark.parametrize("scale", [1.0, 1.15])
-@pytest.mark.parametrize(
-    "sheet",
-    [
-        *(f"consent/study/{language}.toml" for language in ("en", "it", "es")),
-        "templates/two-languages/information/de.toml",
-    ],
-)
+@pytest.mark.parametrize("sheet", SHEETS)
 def test_on_an_upright_screen_points_and_boxes_are_all_seen_at_once(
     booth: Booth, qtbot: QtBot, sheet: str, scale: float
 ) -> None:
@@ -348,8 +380,7 @@ def test_on_an_upright_screen_points_and_boxes_are_all_seen_at_once(
     window.setProperty("textSize", scale)
     window.resize(1080, 1920)
     qtbot.waitUntil(lambda: window.contentItem().width() == 1080)
-    page = ConsentPage.model_validate(tomllib.loads((ASSETS / sheet).read_text(encoding="utf-8"))["consent"])
-    booth.app.screens.consent.show(page)
+    booth.app.screens.consent.show(read_sheet(sheet))
     booth.settle()
     assert booth.sees("purpose-share")
     assert not booth.sees("more")

@@ -20,8 +20,8 @@ PageFrame {
     // apart its groups are, and how many are in a box above and below its words. Whether it has the largest of all, and
     // whether even the smallest are too large.
     readonly property bool upright: width < height
-    readonly property var sizes: upright ? [[38, 36, 1, 0.8], [38, 36, 0.7, 0.6], [36, 36, 0.6, 0.5], [36, 36, 0.4, 0.35], [36, 36, 0.4, 0.25], [34, 33, 0.6, 0.4], [34, 33, 0.4, 0.35], [32, 31, 0.4, 0.25], [30, 29, 0.4, 0.2]]
-        : [[34, 34, 0.9, 0.8], [34, 33, 0.9, 0.5], [34, 33, 0.6, 0.35], [32, 31, 0.6, 0.35], [32, 31, 0.4, 0.25], [30, 29, 0.4, 0.25]]
+    readonly property var sizes: upright ? [[36, 36, 1, 0.8], [36, 36, 0.7, 0.6], [36, 36, 0.6, 0.5], [36, 36, 0.4, 0.35], [36, 36, 0.4, 0.25], [34, 33, 0.6, 0.4], [34, 33, 0.4, 0.35], [32, 31, 0.4, 0.25], [31, 31, 0.4, 0.2], [30, 29, 0.4, 0.2]]
+        : [[32, 34, 0.9, 0.9], [32, 34, 0.9, 0.5], [32, 33, 0.6, 0.35], [31, 31, 0.6, 0.35], [31, 31, 0.4, 0.25], [29, 29, 0.4, 0.25]]
     readonly property int fitting: short ? sizes.findIndex(([point, box, apart, inside]) => tall(point, box, apart, inside) <= pane.room) : -1
     readonly property real heads: Theme.size(upright ? 40 : 38)
     // How far the boxes of a card keep from its edges: at its sides, and above and below.
@@ -39,13 +39,17 @@ PageFrame {
     }
     // About how high points and boxes are, with letters of these sizes, so many gaps apart.
     function tall(pointSize: real, boxSize: real, apart: real, inside: real): real {
-        const wide = paired ? 0.5 * column - Theme.gap : column, [point, box] = [Theme.size(pointSize), Theme.size(boxSize)]
+        const wide = paired ? 0.5 * column - Theme.gap : column, [point, box, tag] = [pointSize, boxSize, 28].map(size => Math.round(Theme.size(size)))
         const points = read.map(each => Math.max(badge * point, 1.48 * point * widths.plainLines(each.text, point, wide - badge * point - Theme.gap)))
         const boxes = consent.purposes.map(purpose => 2 * inside * Theme.gap + Math.max((upright ? 76 : 64) * Theme.unit,
-            widths.leading * (purpose.required ? 0 : Theme.size(28)) + widths.leading * box * widths.plainLines(purpose.text, box, column - 2 * inset - 144 * Theme.unit)))
+            (purpose.required ? 0 : lineOf(tag)) + lineOf(box) * widths.plainLines(purpose.text, box, column - 2 * inset - 144 * Theme.unit)))
         const needed = consent.purposes.filter(purpose => purpose.required).length
         return (paired ? Math.max(...points) : sum(points)) + sum(boxes) + 1.2 * heads + 2 * pad
             + (apart * (0.9 * (paired ? 0 : read.length - 1) + needed) + Math.min(1.6, 0.2 + apart) * (1 + consent.purposes.length - needed)) * Theme.gap
+    }
+    // How high a line of a box is: letters and lines have whole pixels.
+    function lineOf(size: int): int {
+        return Math.ceil(widths.leading * size)
     }
     function sum(heights: var): real {
         return heights.reduce((all, each) => all + each, 0)
@@ -126,7 +130,7 @@ PageFrame {
                 visible: view.short
                 width: pane.width
                 // But where large texts need the room themselves.
-                readonly property bool airy: Theme.textSize <= 1.15 && !view.tight
+                readonly property bool airy: Theme.textSize <= 1.3 && !view.tight
                 spacing: (!airy ? 0.6 : 0.9 * view.used[2]) * Theme.gap
                 columns: airy && view.paired ? 2 : 1
                 columnSpacing: 2 * Theme.gap

@@ -76,7 +76,7 @@ FocusScope {
     // Large texts set both one above the other on a wide page as well, and there too they are as wide as each other.
     readonly property bool stacked: even && !fills && !beside && goes && refuses
     readonly property real pile: Math.min(width - (returns ? back.width + Theme.gap : 0), Math.max(go.wish, no.wish))
-    readonly property real step: Math.round((fills && Theme.textSize <= 1.15 ? halved ? 1.9 : 1.1 : 0.5) * Theme.gap)
+    readonly property real step: Math.round((halved ? (Theme.textSize <= 1 ? 1.9 : 1.2) : fills && Theme.textSize <= 1.15 ? 1.1 : 0.5) * Theme.gap)
     // How far they reach above their place.
     readonly property real over: Math.max(0, -go.y)
     // As high without a way on, so that the way back stands at the same place.
