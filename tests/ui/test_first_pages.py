@@ -1,4 +1,4 @@
-"""What is read before the game: headings that tell the page at a glance, and drawings that stand even."""
+"""What is read before the game: cards that tell the page at a glance, and drawings that stand even."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import ASSETS
-from kiosk.experiment.information import Information
+from kiosk.experiment.information import Information, Page
 from kiosk.ui.simulated_visitor import lay_out
 from tests.samples import CATALOGUES, ENGLISH
 from tests.ui.conftest import Booth
@@ -48,6 +48,15 @@ def shown(booth: Booth, qtbot: QtBot, screen: str, size: tuple[int, int], langua
     return ground
 
 
+def shown_instead(booth: Booth, qtbot: QtBot, size: tuple[int, int], page: Page) -> QQuickItem:
+    """Show this page in the place of the shipped first one; return what holds all of it."""
+    ground = shown(booth, qtbot, "about", size)
+    booth.app.screens.about.show(page)
+    booth.settle()
+    lay_out(booth.app.window)
+    return ground
+
+
 def those(ground: QQuickItem, kind: str) -> list[QQuickItem]:
     """Return the outermost items of one of our own components that are to be seen, in their order."""
     found = [item for item in items(ground) if item.metaObject().className().partition("_QML")[0] == kind]
@@ -70,75 +79,141 @@ def capitals_top(text: QQuickItem) -> float:
     return edges(text).top() + letters.ascent() - letters.capHeight()
 
 
+def steps_of(ground: QQuickItem) -> list[QQuickItem]:
+    """Return the cards of the steps of a visit that are to be seen, in their order."""
+    return [item for item in items(ground) if item.objectName() == "step"]
+
+
+def paths_of(ground: QQuickItem) -> list[QRectF]:
+    """Return where what joins the steps of a visit is to be seen, in their order."""
+    return [edges(item) for item in items(ground) if item.objectName() == "path"]
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
-def test_each_row_of_the_first_page_is_a_bold_heading_over_smaller_plain_words(
+def test_each_step_of_the_first_page_is_a_card_with_a_drawing_and_a_heading_over_smaller_words(
     booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
 ) -> None:
-    rows = those(shown(booth, qtbot, "about", size, language), "SignedLine")
-    # On a wide page the helper says the last one.
-    assert len(rows) == (4 if size[0] > size[1] else 5)
-    looks = set()
-    for row in rows:
-        heading, words = texts(row)
+    steps = steps_of(shown(booth, qtbot, "about", size, language))
+    assert len(steps) == 3
+    looks, sides, places = set(), set(), set()
+    for step in steps:
+        (drawing,) = those(step, "StepDrawing")
+        heading, words = texts(step)
         assert heading.property("font").bold()
         assert not words.property("font").bold()
-        assert heading.property("lineCount") == 1
+        assert heading.property("lineCount") <= (2 if size == SIZES[0] else 1)
+        assert words.property("lineCount") <= (4 if size == SIZES[0] else 2)
         looks.add((pixels(heading), pixels(words)))
-    ((of_headings, of_words),) = looks
-    assert of_headings >= 48
-    assert of_words >= (42 if language == "en" else 38)
-    # The drawings are even, and each heading stands at the same place beside its own.
-    tops = [edges(row.childItems()[0]).top() for row in rows]
-    (step,) = {round(below - above) for above, below in pairwise(tops)}
-    assert step > 0
-    capitals = [capitals_top(next(texts(row))) - top for row, top in zip(rows, tops, strict=True)]
-    assert max(capitals) - min(capitals) <= 1
-    assert all(8 <= each <= 20 for each in capitals)
-    # What one row says stays clear of the heading of the next.
-    for (_, words), (heading, _) in pairwise([list(texts(row)) for row in rows]):
-        assert capitals_top(heading) - edges(words).bottom() >= 32
+        sides.add((round(step.width()), round(step.height()), round(drawing.width())))
+        places.add(tuple(round(each) for each in (edges(drawing).center() - edges(step).topLeft()).toTuple()))
+        for text in (heading, words):
+            assert edges(step).adjusted(16, 16, -16, -16).contains(edges(text))
+            assert not edges(text).intersects(edges(drawing))
+    ((of_headings, of_words),), ((*_, side),) = looks, sides
+    assert of_headings >= (38 if language in {"en", "it"} else 36)
+    assert 33 <= of_words < of_headings
+    assert side >= (176 if size == SIZES[0] else 160)
+    assert len(places) == 1
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_the_first_row_of_the_first_page_stands_well_below_its_title(booth: Booth, qtbot: QtBot, language: str) -> None:
-    rows = those(shown(booth, qtbot, "about", SIZES[0], language), "SignedLine")
-    title = booth.item("page-title")
-    baseline = edges(title).top() + QFontMetricsF(title.property("font")).ascent()
-    assert 66 <= capitals_top(next(texts(rows[0]))) - baseline <= 80
-
-
-def test_on_a_wide_screen_the_rows_of_the_first_page_end_where_the_cards_of_the_next_do(
-    booth: Booth, qtbot: QtBot
+@pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
+def test_what_is_studied_stands_between_the_title_and_the_steps(
+    booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
 ) -> None:
-    last = those(shown(booth, qtbot, "about", SIZES[0]), "SignedLine")[-1]
-    (drawing, *_) = last.childItems()
-    end = edges(drawing).bottom()
-    shown(booth, qtbot, "age", SIZES[0])
-    assert end == pytest.approx(edges(booth.item("age-yes")).bottom(), abs=4)
-
-
-def test_on_an_upright_screen_the_rows_of_the_first_page_end_well_above_the_way_on(booth: Booth, qtbot: QtBot) -> None:
-    last = those(shown(booth, qtbot, "about", SIZES[1]), "SignedLine")[-1]
-    (drawing, *_) = last.childItems()
-    assert edges(booth.item("continue")).top() - edges(drawing).bottom() >= 79
-    assert not booth.sees("more")
+    ground = shown(booth, qtbot, "about", size, language)
+    (visit,) = those(ground, "VisitSteps")
+    heading, words = list(texts(visit))[:2]
+    title, first = booth.item("page-title"), steps_of(ground)[0]
+    assert edges(title).bottom() <= edges(heading).top() < edges(words).top()
+    assert edges(words).left() == pytest.approx(edges(heading).left(), abs=1)
+    assert 24 <= edges(first).top() - edges(words).bottom() <= 60
+    assert words.property("lineCount") <= 2
+    assert pixels(title) > pixels(words) >= pixels(heading)
 
 
 @pytest.mark.parametrize("language", ["en", "ar"])
 @pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
-def test_a_path_joins_the_drawings_of_all_that_happens_one_after_the_other(
+def test_an_arrow_leads_from_each_step_to_the_next(
     booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
 ) -> None:
     ground = shown(booth, qtbot, "about", size, language)
-    rows = those(ground, "SignedLine")
-    discs = [edges(row.childItems()[0]) for row in rows]
-    # The first line says what is studied, and the last one of an upright page what all of it takes.
-    steps = discs[1:] if size[0] > size[1] else discs[1:-1]
-    assert len(steps) == 3
-    paths = sorted((edges(item) for item in items(ground) if item.objectName() == "path"), key=QRectF.top)
+    steps = steps_of(ground)
+    paths = paths_of(ground)
     assert len(paths) == len(steps) - 1
-    for path, (above, below) in zip(paths, pairwise(steps), strict=True):
+    for path, (step, following) in zip(paths, pairwise(steps), strict=True):
+        one, other = edges(step), edges(following)
+        (drawing,) = those(step, "StepDrawing")
+        if size == SIZES[1]:
+            between = (one.bottom() + other.top()) / 2
+            assert path.center().y() == pytest.approx(between, abs=1)
+            assert path.center().x() == pytest.approx(edges(drawing).center().x(), abs=1)
+        else:
+            between = (one.right() + other.left() if language == "en" else one.left() + other.right()) / 2
+            assert path.center().x() == pytest.approx(between, abs=1)
+            assert path.center().y() == pytest.approx(edges(drawing).center().y(), abs=1)
+
+
+def test_on_a_wide_screen_the_steps_end_where_the_cards_of_the_next_page_do(booth: Booth, qtbot: QtBot) -> None:
+    ends = {edges(step).bottom() for step in steps_of(shown(booth, qtbot, "about", SIZES[0]))}
+    (end,) = ends
+    shown(booth, qtbot, "age", SIZES[0])
+    assert end == pytest.approx(edges(booth.item("age-yes")).bottom(), abs=4)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_on_an_upright_screen_what_a_visit_takes_ends_well_above_the_way_on(
+    booth: Booth, qtbot: QtBot, language: str
+) -> None:
+    ground = shown(booth, qtbot, "about", SIZES[1], language)
+    *_, words = texts(those(ground, "VisitSteps")[0])
+    assert edges(steps_of(ground)[-1]).bottom() < edges(words).top()
+    assert edges(booth.item("continue")).top() - edges(words).bottom() >= 40
+    assert not booth.sees("more")
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_beside_a_robot_the_first_page_says_below_the_steps_what_a_visit_takes(
+    booth: Booth, qtbot: QtBot, language: str
+) -> None:
+    booth.app.screens.avatar.appear(present=False)
+    try:
+        ground = shown(booth, qtbot, "about", SIZES[0], language)
+        last = booth.app.screens.about.property("lines")[-1]["text"].split("\n")
+        said = [str(text.property("text")) for text in texts(ground)]
+        assert [text for text in said if text in last or text == "\n".join(last)]
+        assert not booth.sees("more")
+    finally:
+        booth.app.screens.avatar.appear(present=True)
+
+
+@pytest.mark.parametrize("count", range(1, 9))
+@pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
+@pytest.mark.parametrize("long", [False, True], ids=["short", "long"])
+def test_a_first_page_of_any_number_of_paragraphs_says_all_of_them(
+    booth: Booth, qtbot: QtBot, size: tuple[int, int], count: int, *, long: bool
+) -> None:
+    paragraphs = [f"Heading {at}\n{'What is said there. ' * (12 if long else 1)}".strip() for at in range(count)]
+    page = Page.model_validate({"title": "Here", "paragraphs": paragraphs, "signs": ["cards"] * count})
+    ground = shown_instead(booth, qtbot, size, page)
+    said = " ".join(str(text.property("text")) for text in texts(ground))
+    # On a wide page, the helper says the last one if it is short.
+    for at in range(count):
+        assert said.count(f"Heading {at}") == 1 or (at == count - 1 and size == SIZES[0] and not long)
+    assert not steps_of(ground) or (not booth.sees("more") and len(steps_of(ground)) <= 4)
+
+
+def test_a_list_of_many_steps_has_a_path_between_their_drawings(booth: Booth, qtbot: QtBot) -> None:
+    paragraphs = [f"Heading {at}\nWhat is said there." for at in range(6)]
+    page = Page.model_validate({"title": "Here", "paragraphs": paragraphs, "signs": ["cards"] * 6})
+    ground = shown_instead(booth, qtbot, SIZES[0], page)
+    discs = [edges(row.childItems()[0]) for row in those(ground, "SignedLine")]
+    # The first line says what is studied.
+    assert len(discs) == 5
+    paths = sorted(paths_of(ground), key=QRectF.top)
+    assert len(paths) == 3
+    for path, (above, below) in zip(paths, pairwise(discs[1:]), strict=True):
         assert path.center().x() == pytest.approx(above.center().x(), abs=1)
         assert path.top() == pytest.approx(above.bottom(), abs=1)
         assert path.bottom() == pytest.approx(below.top(), abs=1)

@@ -9,12 +9,15 @@ PageFrame {
 
     required property AboutScreen about
     required property ReturnScreen returning
+    required property AttractScreen attract
+    required property url cardBack
+    required property url cardShadow
 
     aside: sayable(about.lines)
     readonly property var read: aside === "" ? about.lines : about.lines.slice(0, -1)
 
     title: about.title
-    titleSize: upright && led && Theme.textSize <= 1.15 && widths.bold(about.title, Theme.size(80)) <= column ? Theme.size(80) : Theme.pageTitle
+    titleSize: upright && led && Theme.textSize <= 1 && widths.bold(about.title, Theme.size(80)) <= column ? Theme.size(80) : Theme.pageTitle
     label: words["about-continue"]
     other: returning.offered ? words["return-offer"] : ""
     way.otherName: "return-offer"
@@ -69,8 +72,29 @@ PageFrame {
         return read.reduce((sum, line) => sum + Math.max(2.5 * size, said(line.text, size, size, (column - 2.5 * size - Theme.gap) * 0.9, 1.08)), 0)
     }
 
+    // Where all lines have headings, and there is room for that: the first leads, those after it are steps of the visit.
+    readonly property var follow: read.slice(1, aside === "" ? -1 : read.length)
+    readonly property bool staged: follow.length >= 2 && follow.length <= (upright ? 4 : 3) && visit.fits
+        && read.every((line, at) => line.text.split("\n").length === 2 && (at === 0 || line.sign !== ""))
+
+    VisitSteps {
+        id: visit
+        visible: view.staged
+        y: (view.upright ? 0 : 4) * Theme.unit
+        width: view.column
+        upright: view.upright
+        room: view.room - y
+        widths: widths
+        lead: view.read[0] ?? {text: "", sign: ""}
+        steps: view.follow
+        last: view.aside === "" && view.read.length > 1 ? view.read[view.read.length - 1] : null
+        picture: view.attract.pictures[0] ?? ""
+        cardBack: view.cardBack
+        cardShadow: view.cardShadow
+    }
     ScrollPane {
         id: pane
+        visible: !view.staged
         y: view.airy ? view.margin : view.sink(height)
         width: parent?.width ?? 0
         room: view.room

@@ -141,6 +141,9 @@ Window {
                 accompanied: layout.accompanied
                 focus: true
                 about: root.about
+                attract: root.attract
+                cardBack: root.cardBack
+                cardShadow: root.cardShadow
                 returning: root.returning
                 kiosk: root.kiosk
                 words: root.words

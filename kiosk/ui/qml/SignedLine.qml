@@ -21,8 +21,9 @@ Item {
     // How long the last line below the heading is at least, as a share of the longest.
     property real lastLine: inMiddle ? 0.75 : 0.4
 
-    // How wide the drawing is.
+    // How wide the drawing is, and the colour of its ground.
     property real badge: 2.5 * size
+    property alias ground: mark.color
     // Whether the drawing stands in the middle of the lines, and not at the first of them. Beside a large drawing, a
     // heading stands at one place whatever follows it, so that all headings below each other are as far apart as the
     // drawings: its capitals begin a little below the top of the drawing.
