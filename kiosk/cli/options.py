@@ -42,7 +42,11 @@ def _stored_data_option(is_there: Callable[[Path], bool]) -> Callable[..., Any]:
     def choose(_context: click.Context, _option: click.Parameter, given: Path | None) -> Path:
         if given is not None:
             return given
-        if is_there(DATA) or not is_there(REHEARSALS):
+        if not is_there(REHEARSALS):
+            return DATA
+        if is_there(DATA):
+            if _has_only_trials(DATA):
+                tell_line(f"Only trials are stored in {DATA}. For the rehearsals, add --data {REHEARSALS}", err=True)
             return DATA
         tell_line(f"Nothing is stored in {DATA} yet, so this is about the rehearsals in {REHEARSALS}.", err=True)
         return REHEARSALS
@@ -59,6 +63,12 @@ def _has_sessions(folder: Path) -> bool:
     from kiosk.store.database import has_sessions
 
     return has_sessions(folder)
+
+
+def _has_only_trials(folder: Path) -> bool:
+    from kiosk.store.database import has_only_trials
+
+    return has_only_trials(folder)
 
 
 def _has_database(folder: Path) -> bool:

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from kiosk import UserInputError
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.files import make_folder
 from kiosk.store.connecting import (
     Connection,
@@ -173,13 +174,24 @@ def has_database(folder: Path) -> bool:
 
 def has_sessions(folder: Path) -> bool:
     """Tell whether a data folder has stored sessions, or a database that cannot be looked into."""
+    kinds = _kinds_of_sessions(folder)
+    return kinds is None or bool(kinds)
+
+
+def has_only_trials(folder: Path) -> bool:
+    """Tell whether all stored sessions of a data folder are trials, and there is one."""
+    return _kinds_of_sessions(folder) == {SessionKind.TRIAL}
+
+
+def _kinds_of_sessions(folder: Path) -> set[int] | None:
+    """Return the kinds of the stored sessions; None for a database that cannot be looked into."""
     if not has_database(folder):
-        return False
+        return set()
     try:
         with closing(open_for_reading(folder)) as connection:
-            return bool(connection.execute("SELECT EXISTS (SELECT 1 FROM session)").fetchone()[0])
+            return {kind for (kind,) in connection.execute("SELECT DISTINCT kind FROM session")}
     except (UserInputError, sqlite3.Error):
-        return True
+        return None
 
 
 def open_as_it_is(folder: Path) -> Connection:

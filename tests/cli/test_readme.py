@@ -109,6 +109,12 @@ class Newcomer:
         return self.loaded.run(arguments, self.home, self.environment, "258013\n258013\n", program)
 
 
+def play(newcomer: Newcomer, kind: SessionKind) -> None:
+    """Begin a session in their data folder."""
+    with Recorder(newcomer.home / "share" / "recollect") as recorder:
+        recorder.begin(Provenance(plan(), 2, "avatar", "a test", kind=kind), [SessionStarted(at_ms=0)])
+
+
 def bootstrap() -> ModuleType:
     """Return the file that the first command runs."""
     return load("bootstrap")
@@ -245,13 +251,20 @@ def is_kept_up(newcomer: Newcomer, arguments: Sequence[str]) -> bool:
 )
 def test_a_tutorial_can_be_followed(newcomer: Newcomer, tutorial: str, commands: str, made: tuple[str, ...]) -> None:
     page = (ROOT / "docs" / "tutorials" / tutorial).read_text("utf-8")
-    typed = [shlex.split(line)[1:] for line in re.findall(r"^    (recollect .*)$", page, flags=re.M)]
+    if "--data rehearsals" in page:
+        # It shows the same to those who have played a trial before.
+        play(newcomer, SessionKind.TRIAL)
     followed = []
-    for arguments in typed:
+    for line, text in re.findall(r"^    recollect (.*)\n((?:(?!    recollect ).*\n?)*)", page, flags=re.M):
+        arguments = shlex.split(line)
+        if arguments[0] == "rehearse" and "--data" in arguments:
+            rehearsed = newcomer.home / arguments[arguments.index("--data") + 1]
+            shutil.copytree(newcomer.home / "share" / "recollect" / "rehearsals", rehearsed, dirs_exist_ok=True)
         if arguments[0] in TRIED_BY_ROWS:
             continue
         done = newcomer.run(arguments)
         assert (done.returncode, "Traceback" in done.stderr) == (0, False), (arguments, done.stderr)
+        assert [seen for seen in re.findall(r"You see `([^`]+)`", text) if seen not in done.stdout] == []
         followed.append(arguments[0])
     assert followed == commands.split()
     assert [place for place in made if not (newcomer.home / place).exists()] == []
@@ -268,7 +281,13 @@ def test_what_people_did_goes_before_rehearsals(newcomer: Newcomer) -> None:
     assert newcomer.run([], LEFT_AT_ONCE).returncode == 0
     assert "about the rehearsals" in newcomer.run(["sessions"]).stderr
     assert newcomer.run(["verify"]).stderr == ""
-    with Recorder(newcomer.home / "share" / "recollect") as recorder:
-        recorder.begin(Provenance(plan(), 2, "avatar", "a test", kind=SessionKind.STUDY), [SessionStarted(at_ms=0)])
+    play(newcomer, SessionKind.TRIAL)
+    rehearsals = newcomer.home / "share" / "recollect" / "rehearsals"
     done = newcomer.run(["sessions", "--json"])
-    assert (done.stderr, done.stdout.count('"session": 1,')) == ("", 1)
+    assert "Only trials are stored" in done.stderr
+    assert f"--data {rehearsals}\n" in done.stderr
+    assert done.stdout.count('"session": 1,') == 1
+    assert newcomer.run(["sessions", "--data", str(rehearsals)]).stderr == ""
+    play(newcomer, SessionKind.STUDY)
+    done = newcomer.run(["sessions", "--json"])
+    assert (done.stderr, done.stdout.count('"session": 2,')) == ("", 1)
