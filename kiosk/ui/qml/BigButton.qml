@@ -25,7 +25,8 @@ Button {
     property real underSize: Theme.small
     property int underLines: 1
     readonly property real underTall: under === "" ? 0 : Math.ceil(1.37 * underLines * underSize)
-    // Whether it has its colour in its edge alone: one that cannot be chosen yet, and all that are to look like it.
+    // Whether it is as pale as all that can be chosen, with its colour in its edge: one that wants something else first, and
+    // all that are to look like it.
     property bool hollow: false
     // How round it is at most.
     property real corner: Infinity
@@ -118,7 +119,7 @@ Button {
     background: Rectangle {
         id: ground
         radius: Math.min(height / 2, button.topPadding + button.font.pixelSize, button.corner)
-        color: button.waits ? Theme.resting : button.quiet ? "transparent" : button.hollow ? (button.hovered ? Theme.touchable : Theme.white) : button.hovered ? Theme.lightSea : Theme.sea
+        color: button.waits ? Theme.resting : button.quiet ? "transparent" : button.hollow ? (button.hovered ? Theme.stated : Theme.touchable) : button.hovered ? Theme.lightSea : Theme.sea
         // Without an edge it looks at rest. With high contrast the edge is all that shows where it is.
         border.color: button.waits ? Theme.slot : button.hollow ? Theme.sea : Theme.shy
         border.width: button.waits && !Theme.highContrast ? 0 : button.quiet || button.hollow || button.waits ? 3 * Theme.unit : 0

@@ -143,8 +143,6 @@ PageFrame {
                         sign: modelData.sign
                         badge: view.badge * size
                         size: points.airy ? Theme.size(view.used[0]) : Theme.body
-                        // What is read is quieter than what there is to do.
-                        ink: Theme.faintInk
                     }
                 }
             }

@@ -12,7 +12,6 @@ Item {
     property string sign: ""
     readonly property bool signed: sign !== ""
     property bool strong: false
-    property color ink: Theme.ink
     // Whether the words stand in the middle of their width.
     property bool inMiddle: false
     property real size: Theme.body
@@ -71,7 +70,6 @@ Item {
             text: (line.lead === "" ? line.text : line.text.slice(line.lead.length + 1)).replace(/(\d) /g, "$1\u00a0")
             horizontalAlignment: line.inMiddle ? Text.AlignHCenter : Text.AlignLeft
             font { pixelSize: line.size; bold: line.strong }
-            color: line.ink
             least: line.lastLine
             lineHeight: line.leading
         }

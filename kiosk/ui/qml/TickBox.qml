@@ -105,8 +105,7 @@ Choosable {
                 width: parent.width
                 visible: box.tagged
                 text: box.note
-                font.pixelSize: Theme.size(28)
-                color: Theme.faintInk
+                font { pixelSize: Theme.size(28); bold: true }
                 Accessible.ignored: true
             }
             Balanced {
