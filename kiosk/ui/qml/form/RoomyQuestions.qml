@@ -9,9 +9,9 @@ QtObject {
     required property WordWidths widths
 
     readonly property bool sole: page.alone
-    // How large the questions are: as large as leaves each in as few lines as small letters do. One that is alone may have
-    // two on an upright page.
-    readonly property real asking: (sole ? [60, 56, 52, 50, 48, 46, 44] : [44, 42, 40, 38]).map(Theme.size)
+    // How large the questions are: as large as leaves each in as few lines as small letters do, and clearly smaller than the
+    // title. One that is alone may have two lines on an upright page.
+    readonly property real asking: (sole ? [54, 52, 50, 48, 46, 44] : [44, 42, 40, 38]).map(Theme.size)
         .find(size => page.items.every(item => widths.lines(item.text, size, page.inner) <= fewest(item))) ?? Theme.size(38)
     function fewest(item: var): int {
         return Math.max(sole && page.upright ? 2 : 1, widths.lines(item.text, Theme.size(38), page.inner))
@@ -30,7 +30,7 @@ QtObject {
     readonly property var ways: sole || page.upright ? ["list", "even", "two", "three"] : ["even", "two", "three"]
     readonly property var steps: [[112, 28, 40, 26], [104, 24, 36, 24], [100, 22, 32, 22], [96, 20, 30, 20], [92, 20, 26, 18], [88, 18, 24, 16], [84, 16, 20, 14], [78, 14, 18, 12], [72, 14, 16, 10]]
     function search(): var {
-        for (const sizes of [[40, 38, 36], [34, 32, 30]])
+        for (const sizes of [page.upright ? [44, 42, 40, 38, 36] : [40, 38, 36], [34, 32, 30]])
             for (const way of ways)
                 for (const [height, gutter, margin, spacing] of steps)
                     for (const letters of sizes) {
