@@ -1,6 +1,7 @@
 // A portrait of a grown-up or a child in a disc, drawn like the animals of the cards and with the helper's colours.
 import QtQuick
 import QtQuick.Shapes
+import "."
 
 Shape {
     id: person
@@ -31,7 +32,7 @@ Shape {
 
     ShapePath { // the ground that the cards' pictures have, too
         strokeWidth: -1
-        fillColor: "#F9DDA9"
+        fillColor: Theme.sunny
         PathAngleArc { centerX: 120; centerY: 120; radiusX: person.rim; radiusY: person.rim; sweepAngle: 360 }
     }
     ShapePath { // the body

@@ -27,8 +27,8 @@ QtObject {
     readonly property color paper: highContrast ? "#FFFFFF" : background
     readonly property color white: highContrast ? "#FFFFFF" : "#FFFBF2"
     readonly property color sand: highContrast ? "#FFD54A" : "#E9D8B4"
-    // The ground of pictures, which those of the cards have, too.
-    readonly property color sunny: highContrast ? sand : "#F9DDA9"
+    // The ground of pictures, which those of the cards have, too. Pictures keep it with high contrast.
+    readonly property color sunny: "#F9DDA9"
     readonly property color edge: highContrast ? "#000000" : sand
     // What can be chosen and is not: a light tint of the colour that it will have.
     readonly property color touchable: highContrast ? white : Qt.hsla(Math.max(0, accent.hslHue), Math.min(0.38, accent.hslSaturation), 0.92, 1)
