@@ -470,6 +470,24 @@ def test_a_number_that_is_clicked_is_selected_and_the_next_digit_takes_its_place
     assert given == [("alone", 7)]
 
 
+def test_a_number_can_be_typed_before_its_field_has_the_keyboard(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["integer"], ITEMS["single"])
+    press(booth, Qt.Key.Key_1, Qt.Key.Key_2)
+    assert booth.item("number-alone").property("activeFocus")
+    press(booth, RETURN)
+    assert given == [("alone", 12)]
+    # What stands there already is typed over only in its field.
+    press(booth, Qt.Key.Key_Tab, Qt.Key.Key_7)
+    assert booth.item("number-alone").property("text") == "12"
+
+
+def test_a_digit_begins_no_number_before_another_question_is_answered(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["single"], ITEMS["integer"])
+    press(booth, Qt.Key.Key_4)
+    assert booth.item("number-alone").property("text") == ""
+    assert given == []
+
+
 def test_the_keys_on_the_screen_come_for_a_touch_and_not_for_a_mouse(booth: Booth) -> None:
     ask(booth, ITEMS["integer"])
     place = item_centre(booth.item("number-alone"))

@@ -110,9 +110,11 @@ PageFrame {
         return Array.from({length: boxes.count}, (_, at) => boxes.itemAt(at) as FormItem)
     }
     // One press of a digit answers the scale that has the keyboard, or else the first that is not answered, and goes on
-    // to the next.
+    // to the next. A number that is still empty begins with it: its field looks ready to type in before it is touched.
     function answer(digit: int): bool {
         const active = all().findIndex(box => box.activeFocus), at = active >= 0 ? active : all().findIndex(box => box.isOpen())
+        if (at >= 0 && all()[at].begins(digit % 10))
+            return true
         if (at < 0 || !all()[at].takes(digit))
             return false
         goOn(at)

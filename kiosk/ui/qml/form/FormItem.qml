@@ -137,6 +137,15 @@ Item {
     function takes(digit: int): bool {
         return box.ways[item.kind] === points && digit <= item.points
     }
+    // Whether a digit began its number, which was empty.
+    function begins(digit: int): bool {
+        const number = way.item as NumberField
+        if (number === null || number.text !== "")
+            return false
+        take()
+        number.text = digit
+        return true
+    }
     // Whether nothing is said to it yet.
     function isOpen(): bool {
         return visible && (answer ?? null) === null && !form.exempt.includes(item.id)
