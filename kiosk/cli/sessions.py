@@ -159,7 +159,7 @@ def _targets(enrolled: EnrolmentCounts) -> Table:
     table = Table(box=None, title="People, against the targets", title_justify="left", title_style="")
     fates = [fate for fate in _FATES if any(cell.fates[fate] for cell in enrolled.cells.values())]
     fates = [Disposition.CONSUMED, *(fate for fate in fates if fate is not Disposition.CONSUMED)]
-    for heading in ("condition", "target", *(_FATES[fate] for fate in fates), "still to come", "withdrawn"):
+    for heading in ("condition", "target", *(_FATES[fate] for fate in fates), "still to come", "deleted"):
         table.add_column(heading, no_wrap=True, justify="left" if heading == "condition" else "right")
     for condition, cell in enrolled.cells.items():
         numbers = [cell.quota, *(cell.fates[fate] for fate in fates)]
