@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -22,6 +23,10 @@ ARTICLE = re.compile(r"\ba (?!one|once|eu)[aeio][a-z]{3,}", re.IGNORECASE)
 """What has to be "an": renaming a thing leaves the article of its old name."""
 FIRST_LINE_WORDS = 20
 SENTENCE_WORDS = 40
+
+
+ENTRY_WORDS = 6
+"""By so many words, an entry of the changelog is about the same thing as another one."""
 
 
 def avoided_words(text: str) -> list[str]:
@@ -100,3 +105,10 @@ def test_long_lines_and_sentences_are_found() -> None:
     assert long_first_lines(f'def short():\n    """{words.strip()}."""\n') == []
     assert long_first_lines(f'class Long:\n    """{words}and."""\n') == [f"{words}and."]
     assert long_sentences(f"A page. {words * 2}and more.\n\n| {words * 3} |\n") == [f"{words * 2}and more."]
+
+
+def test_the_changelog_says_each_thing_once() -> None:
+    # Two changes to one entry that meet leave both, and one of them is out of date.
+    entries = re.findall(r"^- (.*(?:\n  .*)*)", (ROOT / "CHANGELOG.md").read_text("utf-8"), flags=re.M)
+    beginnings = Counter(" ".join(entry.split()[:ENTRY_WORDS]) for entry in entries)
+    assert [beginning for beginning, times in beginnings.items() if times > 1] == []
