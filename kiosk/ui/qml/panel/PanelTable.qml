@@ -54,18 +54,12 @@ PanelSection {
             return here
         })
     }
-    // How high its rows are without what lies between them.
-    readonly property real packed: shown.rows.length === 0 ? Math.ceil(letters.height) : Math.ceil(letters.height) * (most(titles) + shown.rows.reduce((lines, row) => lines + most(row.cells), 0)) + 2 * Theme.unit
 
     function sum(each: var): real {
         return each.reduce((total, one) => total + one, 0)
     }
     function wide(at: int): real {
         return (at === heads.length - 1 ? room : starts[at + 1] - step) - starts[at]
-    }
-    // How many lines the words in a row need.
-    function most(cells: var): int {
-        return Math.max(...cells.map((cell, at) => broken(cell, (wide(at) - (at === 0 ? before : 0)) * 100 / Math.round(written))))
     }
     function long(text: string, strong: bool): real {
         return (strong ? bold : plain).advanceWidth(text)
@@ -120,10 +114,6 @@ PanelSection {
     FontMetrics {
         id: plain
         font.pixelSize: 100
-    }
-    FontMetrics {
-        id: letters
-        font.pixelSize: table.written
     }
 
     // A place in a row, as wide as its column with the step behind it.

@@ -162,7 +162,7 @@ FocusScope {
         Item {
             id: content
             width: pane.width
-            height: [today, stored, next][view.page].height
+            height: view.page === 0 ? today.height : (other.item as Item)?.height ?? 0
 
             PanelToday {
                 id: today
@@ -173,23 +173,30 @@ FocusScope {
                 seen: pane.height
                 space: view.space
             }
-            PanelRecords {
-                id: stored
-                visible: view.page === 1
+            // Made when they are turned to: the panel opens the sooner.
+            Loader {
+                id: other
                 width: parent.width
-                panel: view.panel
-                wide: view.wide
-                seen: pane.height
-                space: view.space
+                active: view.page > 0
+                sourceComponent: view.page === 1 ? stored : next
             }
-            PanelNext {
+            Component {
+                id: stored
+                PanelRecords {
+                    panel: view.panel
+                    wide: view.wide
+                    seen: pane.height
+                    space: view.space
+                }
+            }
+            Component {
                 id: next
-                visible: view.page === 2
-                width: parent.width
-                panel: view.panel
-                wide: view.wide
-                seen: pane.height
-                space: view.space
+                PanelNext {
+                    panel: view.panel
+                    wide: view.wide
+                    seen: pane.height
+                    space: view.space
+                }
             }
         }
     }
