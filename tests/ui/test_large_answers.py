@@ -108,10 +108,13 @@ def test_a_choice_of_few_or_many_answers_fits_its_page_in_even_rows(
     for count in range(2, len(ANSWERS) + 1):
         (options,) = ask(booth, qtbot, size, choice(*ANSWERS[:count]), letters=letters)
         assert are_even(options), count
-        if (size, letters) in ((WIDE, TextSize.NORMAL), (UPRIGHT, TextSize.NORMAL)):
+        if letters == TextSize.NORMAL:
             assert not booth.sees("more"), count
             # A page of few answers has them below each other.
             assert count > 6 or all(len(row) == 1 for row in rows(options))
+        # They take the width of the page.
+        width = max(edges(option).right() for option in options) - min(edges(option).left() for option in options)
+        assert width >= edges(booth.item("item-robots")).width() - 4, count
         for above, below in pairwise(rows(options)):
             assert below[0].top() - above[0].bottom() >= 8
 

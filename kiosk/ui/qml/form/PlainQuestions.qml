@@ -133,9 +133,10 @@ QtObject {
     function spanOf(item: var, at: int, columns: int, size: real): int {
         return at === item.options.length - 1 && optionWidth(item.options[at], size) > wordsRoom(columns, 1) ? columns - at % columns : 1
     }
-    // How wide an option is that takes so many of the columns.
+    // How wide an option is that takes so many of the columns: a row that is wider by the last digit of a sum would lose its
+    // last option.
     function tileWidth(columns: int, span: int, gutter: real): real {
-        return span * Math.floor((optionsWidth - (columns - 1) * gutter) / columns) + (span - 1) * gutter
+        return span * Math.floor((optionsWidth - (columns - 1) * gutter) / columns - 0.01) + (span - 1) * gutter
     }
     // How much width words have in it.
     function wordsRoom(columns: int, span: int): real {
@@ -172,7 +173,7 @@ QtObject {
     // As many options in each row as have room there, as wide as each other if they can be, and else as their words need.
     // Each row ends where the others do.
     function filledRows(item: var, size: real, gutter: real): var {
-        const rows = [], width = Math.floor(optionsWidth)
+        const rows = [], width = Math.floor(optionsWidth - 0.01)
         let end = Infinity
         for (const option of item.options) {
             const wish = Math.ceil(optionWidth(option, size)) + around

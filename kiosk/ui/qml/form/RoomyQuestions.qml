@@ -108,8 +108,9 @@ QtObject {
     function rowsOf(item: var, layout: var): int {
         return item.kind === "integer" ? 0 : Math.ceil(item.options.length / columnsOf(item, layout))
     }
+    // A little less than there is: a row that is wider by the last digit of a sum would lose its last option.
     function tileWidth(columns: int, layout: var): real {
-        return Math.floor((page.inner - (columns - 1) * layout.gutter) / columns)
+        return Math.floor((page.inner - (columns - 1) * layout.gutter) / columns - 0.01)
     }
     // How many lines an option has there; many if a word of it has no room beside others.
     function linesOf(option: var, columns: int, layout: var): int {
