@@ -21,8 +21,9 @@ from kiosk.experiment.effects import Effect
 from kiosk.experiment.items import Response
 from kiosk.experiment.relevance import hidden_items
 from kiosk.experiment.session_config import SessionConfig, StudyConfig
+from kiosk.experiment.transitions import StageOrder
 from kiosk.ui.event_loop import EventLoop, WallClock
-from kiosk.ui.preview_screens import form_pages, screen_effects
+from kiosk.ui.preview_screens import form_pages, screen_effects, stage_of
 from kiosk.ui.renderer import Renderer
 from kiosk.ui.replay import avatar_alone
 from kiosk.ui.simulated_visitor import touch
@@ -158,9 +159,9 @@ class PreviewModel(QObject):
         self._window.screens.form.continued.connect(self._go_on)
 
     def _plan(self) -> SessionConfig:
-        plans = self._study.plans
-        plan = next((each for each in plans if each.language == self._language), plans[0])
-        return plan.in_condition(Condition(self._condition))
+        languages = self._study.languages
+        language = self._language if self._language in languages else languages[0]
+        return self._study.plan(language, Condition(self._condition))
 
     def _show(self) -> None:
         """Show what is chosen, or the first of it where the study has it no longer."""
@@ -178,10 +179,23 @@ class PreviewModel(QObject):
             self.window.resize(width, height)
         self._renderer.reset("attract")
         self._renderer.begin(plan)
+        self._show_progress(plan)
         self._renderer.perform(self._effects(plan))
         self._draw()
         self._settled.start(SETTLE_MS)
         self.changed.emit()
+
+    def _show_progress(self, plan: SessionConfig) -> None:
+        """Show how far the visit is and whether a visitor can go back, or that there is no visit yet."""
+        kiosk = self._window.screens.kiosk
+        if self._screen == "attract":
+            kiosk.clear()
+        elif stage := stage_of(self._screen):
+            kiosk.reach(stage.value)
+            page = form_pages(plan).get(self._screen)
+            order = StageOrder.of(plan.settings.stages)
+            is_later = page is not None and page.number > 1
+            kiosk.offer_back(offered=is_later or order.before(stage, kept=True) is not None)
 
     def _effects(self, plan: SessionConfig) -> tuple[Effect, ...]:
         page = form_pages(plan).get(self._screen)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from random import Random
@@ -10,6 +11,7 @@ from kiosk.config import Game, Practice
 from kiosk.experiment import effects as do
 from kiosk.experiment.effects import Effect
 from kiosk.experiment.items import Response
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.experiment.questionnaire_stage import item_pages, pages_alike
 from kiosk.experiment.relevance import hidden_items
@@ -26,6 +28,12 @@ def screen_effects(plan: SessionConfig) -> dict[str, tuple[Effect, ...]]:
     for stage in plan.settings.stages:
         screens |= dict(_of_stage(stage, plan))
     return screens | {"still there": (*screens["attract"], do.AskStillThere()), "pause": (do.ShowPause(),)}
+
+
+def stage_of(screen: str) -> Stage | None:
+    """Return the stage that a screen is of; None if it can come in any."""
+    name = re.sub(r" \d+$", "", screen).replace(" ", "_")
+    return next((stage for stage in Stage if stage.value == name), None)
 
 
 def _of_stage(  # noqa: C901 - one case per stage

@@ -78,6 +78,20 @@ def test_every_screen_is_shown_in_every_language_and_size(preview: PreviewModel)
     assert (preview.picture.image.width(), preview.picture.image.height()) == (720, 1280)
 
 
+def test_a_screen_has_the_buttons_and_the_progress_of_a_visit(preview: PreviewModel) -> None:
+    def shown(screen: str) -> set[str]:
+        preview.pick("screen", screen)
+        names = ("control-stop", "control-language", "back", "progress")
+        found = {name: preview.window.findChildren(QQuickItem, name) for name in names}
+        return {name for name, items in found.items() if any(item.isVisible() for item in items)}
+
+    always = {"control-stop", "control-language", "progress"}
+    assert shown("attract") == set()
+    assert shown("about") == always
+    assert shown("consent") == {*always, "back"}
+    assert shown("introduction") == always
+
+
 def test_a_change_is_shown_and_a_fault_keeps_the_last_good_view(
     preview: PreviewModel, study: Path, qtbot: QtBot
 ) -> None:
