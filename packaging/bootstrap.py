@@ -165,9 +165,14 @@ def check(_arguments: Sequence[str]) -> int:
 def docs(_arguments: Sequence[str]) -> int:
     """Write the generated pages and build all pages as a site; a broken link is a failure."""
     with development() as environment:
-        return run(["python", "packaging/reference.py"], environment, ROOT) or run(
-            ["mkdocs", "build", "--strict", "--quiet", "--config-file", "packaging/mkdocs.yml"], environment, ROOT
+        # The theme would end the output with a notice about another program.
+        quiet = environment | {"NO_MKDOCS_2_WARNING": "1"}
+        failed = run(["python", "packaging/reference.py"], environment, ROOT) or run(
+            ["mkdocs", "build", "--strict", "--quiet", "--config-file", "packaging/mkdocs.yml"], quiet, ROOT
         )
+    if not failed:
+        say("The pages are built. `recollect docs` opens them.")
+    return failed
 
 
 def packages(_arguments: Sequence[str]) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from pathlib import Path
 from types import ModuleType
 
@@ -38,3 +39,15 @@ def test_without_room_in_memory_they_are_on_the_disk(
     monkeypatch.setattr(bootstrap, "ENOUGH", 0 if missing else 2**60)
     with bootstrap.files_in_memory({"HOME": "there"}) as environment:
         assert environment == {"HOME": "there"}
+
+
+@pytest.mark.parametrize("fails", [False, True])
+def test_built_pages_end_with_how_to_open_them(
+    bootstrap: ModuleType, monkeypatch: pytest.MonkeyPatch, *, fails: bool
+) -> None:
+    said: list[str] = []
+    monkeypatch.setattr(bootstrap, "development", lambda: nullcontext({}))
+    monkeypatch.setattr(bootstrap, "run", lambda command, *_: int(fails and command[0] == "mkdocs"))
+    monkeypatch.setattr(bootstrap, "say", said.append)
+    assert bootstrap.docs([]) == int(fails)
+    assert said == ([] if fails else ["The pages are built. `recollect docs` opens them."])
