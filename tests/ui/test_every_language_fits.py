@@ -662,26 +662,112 @@ def background_of(button: QQuickItem) -> QQuickItem:
     return behind
 
 
-def test_statements_of_an_upright_page_stand_in_the_middle_of_two_lines_above_scales_at_one_depth(
-    kiosk: tuple[Window, StudyConfig],
+@pytest.mark.parametrize("layout", [Layout(1080, 1920), Layout(800, 1280)], ids=str)
+def test_statements_of_an_upright_page_begin_at_one_height_well_above_their_points(
+    kiosk: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
-    ground = kiosk[0].shown.contentItem()
-    pages = []
-    for page in rating_pages(kiosk, Layout(1080, 1920)):
-        pages.append(page)
-        # What is above the letters of two lines is below those of the ends, too.
+    ground, unit = kiosk[0].shown.contentItem(), layout.height / 1920
+    lines, depths = set(), set()
+    for page in rating_pages(kiosk, layout):
+        heights = [shown.height() for _, _, shown, _ in page]
+        lines.add(round(max(heights) / (50 * unit)))
+        begins = [shown.top() - card.top() for _, card, shown, _ in page]
+        assert max(begins) - min(begins) <= 1
+        depths |= {round(scale.top() - card.top()) for _, card, _, scale in page}
+        # There is some air below the letters of the last line, too.
+        assert min(scale.top() - shown.bottom() for _, _, shown, scale in page) >= 34 * unit
+        # What is above the letters of two lines is about as much as below those of the ends.
         ends = sorted(painted(text).bottom() for text in texts(ground) if text.property("text") == "fully agree")
         for (_, card, shown, _), end in zip(page, ends, strict=True):
-            if shown.height() > 75:
+            if shown.height() > 75 * unit:
                 assert shown.top() - card.top() == pytest.approx(card.bottom() - end, abs=10)
-    cards = [(card, shown, scale) for page in pages for _, card, shown, scale in page]
-    assert {round(shown.height() / 50) for _, shown, _ in cards} == {1, 2}
-    middles = [shown.center().y() - card.top() for card, shown, _ in cards]
-    assert max(middles) - min(middles) <= 1
-    depths = [scale.top() - card.top() for card, _, scale in cards]
-    assert max(depths) - min(depths) <= 1
-    # There is some air below the letters, too.
-    assert all(10 <= scale.top() - shown.bottom() <= 45 for _, shown, scale in cards)
+    assert 2 in lines
+    assert len(depths) == 1
+
+
+def test_statements_of_one_line_alone_stand_in_the_middle_of_two_and_points_where_they_are_elsewhere(
+    kiosk: tuple[Window, StudyConfig],
+) -> None:
+    mixed, alone = rating_pages(kiosk, Layout(1080, 1920), SIXTEEN[:4] + ASKED["trust"].items)
+    assert {round(shown.height() / 50) for _, _, shown, _ in mixed} == {1, 2}
+    assert {round(shown.height() / 50) for _, _, shown, _ in alone} == {1}
+    two = next(shown for _, _, shown, _ in mixed if shown.height() > 75)
+    card = next(card for _, card, shown, _ in mixed if shown is two)
+    middles = {round(shown.center().y() - card.top()) for _, card, shown, _ in alone}
+    assert middles == {round(two.center().y() - card.top())}
+    assert {round(scale.top() - card.top()) for _, card, _, scale in (*mixed, *alone)} == {
+        round(mixed[0][3].top() - mixed[0][1].top())
+    }
+
+
+def test_a_long_statement_of_an_upright_page_takes_distances_and_its_page_needs_no_scrolling(
+    kiosk: tuple[Window, StudyConfig],
+) -> None:
+    said = (
+        "The helper noticed what I remembered and what I had forgotten, and chose its hints for that, whatever it saw."
+    )
+    one, two, *others = SIXTEEN[:4]
+    asked = (one, two.model_copy(update={"text": dict.fromkeys(SHIPPED, said)}), *others)
+    pages = 0
+    for page in rating_pages(kiosk, Layout(1080, 1920), asked):
+        pages += 1
+        assert find_item(kiosk[0].shown.contentItem(), "more") is None
+        assert round(page[1][2].height() / 50) >= 3
+        assert min(scale.top() - shown.bottom() for _, _, shown, scale in page) >= 16
+        assert len({round(shown.top() - card.top()) for _, card, shown, _ in page}) == 1
+        assert {round(scale.height()) for *_, scale in page} == {112}
+    assert pages == 1
+
+
+@pytest.mark.parametrize("size", TextSize)
+def test_statements_of_an_upright_page_are_clear_of_their_points_with_texts_of_any_size(
+    kiosk: tuple[Window, StudyConfig], size: TextSize
+) -> None:
+    screens, ground, items = kiosk[0].screens, kiosk[0].shown.contentItem(), SIXTEEN[4:8]
+    assert list(shown_in(kiosk, Layout(1080, 1920), ("four ratings",))) == ["four ratings"]
+    try:
+        screens.avatar.leave(away=True)
+        screens.kiosk.set_text_size(size)
+        screens.form.show(items, 2, 5, alike=(items, items))
+        lay_out(kiosk[0].shown)
+        assert find_item(ground, "more") is None
+        asked = {text.property("text").replace("\xa0", " "): painted(text) for text in texts(ground)}
+        shown = [asked[item["shown"].replace("\xa0", " ")] for item in screens.form.property("items")]
+        points = [whole(point) for item in items if (point := find_item(ground, f"answer-{item.id}-1")) is not None]
+        assert max(round(place.height() / 50) for place in shown) >= 2
+        assert min(point.top() - place.bottom() for place, point in zip(shown, points, strict=True)) >= 24
+    finally:
+        screens.avatar.leave(away=False)
+        screens.kiosk.set_text_size(TextSize.NORMAL)
+
+
+@pytest.mark.parametrize("language", SHIPPED)
+def test_cards_of_an_upright_page_of_ratings_stay_as_they_are_when_they_are_pointed_out(
+    kiosk: tuple[Window, StudyConfig], language: str
+) -> None:
+    window, ground = kiosk[0], kiosk[0].shown.contentItem()
+    assert list(shown_in(kiosk, Layout(1080, 1920), ("four ratings",))) == ["four ratings"]
+    window.screens.set_language(next(plan for plan in kiosk[1].plans if plan.language == language).catalogue)
+    window.screens.avatar.leave(away=True)
+
+    def places(items: tuple[Item, ...]) -> list[QRectF]:
+        lay_out(window.shown)
+        assert find_item(ground, "more") is None
+        cards = [find_item(ground, f"card-{item.id}") for item in items]
+        return [whole(card) for card in cards if card is not None]
+
+    try:
+        for items in (SIXTEEN[:4], SIXTEEN[4:8], ASKED["trust"].items):
+            for missed in (items[:1], items):
+                window.screens.form.show(items, 2, 5, alike=(SIXTEEN[:4], items))
+                before = places(items)
+                window.screens.form.show_missing(tuple(item.id for item in missed))
+                after = places(items)
+                assert len(before) == len(after) == len(items)
+                for old, new in zip(before, after, strict=True):
+                    assert new.getRect() == pytest.approx(old.getRect(), abs=4)
+    finally:
+        window.screens.avatar.leave(away=False)
 
 
 def test_the_words_for_the_ends_stand_once_above_the_points_of_a_wide_page_of_ratings(
@@ -932,12 +1018,15 @@ def test_the_avatar_shows_its_back_at_one_place_on_the_pages_that_rate_it_and_no
         assert (why is None) == (back is None)
         if back is None or why is None:
             continue
-        # On the lower edge of the window, in full size, with one line beside it.
+        # On the lower edge of the window, with one line beside it, and clear of the ways above it on an upright page.
         wide = layout.width > layout.height
         before, after = (why, back) if wide else (back, why)
         assert 0 <= whole(after).left() - whole(before).right() <= 24
         assert abs(whole(back).bottom() - layout.height) < 1
-        assert whole(back).height() >= 180
+        assert whole(back).height() >= (180 if wide else 136)
+        on = find_item(ground, "continue")
+        assert on is not None
+        assert wide or whole(back).top() - whole(on).bottom() >= 39
         assert why.property("lineCount") == 1
         assert 34 <= why.property("font").pixelSize() <= 46
     screens.avatar.leave(away=False)

@@ -203,7 +203,7 @@ PageFrame {
             // How far cards stand from each other at least. Options in columns leave the height for more.
             readonly property real least: plainQuestions.roomy !== null ? plainQuestions.larger.apart(plainQuestions.roomy) : plainQuestions.columns !== null ? plainQuestions.cardGap : shape.gap
             // Further apart where the page has room for it; and what belongs together, too.
-            readonly property real plain: summed(box => box.plain + (plainQuestions.columns !== null ? plainQuestions.cardGap : (shape.ample ? 20 : shape.easy ? 24 : 30) * Theme.unit))
+            readonly property real plain: summed(box => box.plain + (plainQuestions.columns !== null ? plainQuestions.cardGap : (shape.ample || shape.scarce ? 16 : shape.easy ? 24 : 30) * Theme.unit))
                 - (plainQuestions.columns !== null ? 12 * Theme.unit : 0)
             readonly property int optionRows: summed(box => box.optionRows)
             // Whether all options of each question are as high as its highest, where the page has room for that, and how much
@@ -215,9 +215,11 @@ PageFrame {
             readonly property real grown: !shape.easy || plainQuestions.roomy !== null || optionRows === 0 ? 0 : room - plain >= optionRows * most ? most
                 : Math.max(0, Math.floor((room - plain - (even ? uneven : 0)) / optionRows))
             readonly property real addable: summed(box => box.addable)
-            readonly property real loosened: (shape.calm || shape.rated) && addable > 0 ? Math.max(0, Math.min(1, (room / share - plain - optionRows * grown) / addable)) : 0
+            readonly property real loosened: (shape.calm || shape.rated || shape.scarce) && addable > 0 ? Math.max(0, Math.min(1, (room / share - plain - optionRows * grown) / addable)) : 0
             readonly property real tall: summed(box => box.height)
             readonly property real heads: summed(box => box.head)
+            // How much all statements of the page leave of the height of two lines: those of one line stand in the middle of it.
+            readonly property real lacking: shape.ample ? view.all().reduce((least, box) => Math.min(least, box?.lacks ?? 0), Infinity) : 0
             // Adds up what each item that is there has of something.
             function summed(of: var): real {
                 return view.all().reduce((sum, box) => sum + (box?.there ? of(box) : 0), 0)
@@ -243,6 +245,7 @@ PageFrame {
                     questions: plainQuestions
                     loosened: pane.loosened
                     grown: pane.grown
+                    lowered: pane.lacking / 2
                     even: pane.even
                     // Over an upright page the keys cover other questions: these step back until they can be seen again.
                     opacity: keyboard.card === asked || !view.under ? 1 : 0.3

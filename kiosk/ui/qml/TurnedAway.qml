@@ -20,7 +20,7 @@ Item {
     readonly property real room: to - from - 2 * Theme.gap
     // Where the last card can end on a wide page, and where the way on ends on an upright one.
     readonly property real over: form.y + form.foot + (wide ? -Theme.gap - form.kept - form.spare : form.way.height)
-    readonly property real clear: (wide ? 8 : 24) * Theme.unit
+    readonly property real clear: (wide ? 8 : Theme.textSize > 1 ? 24 : 40) * Theme.unit
     // Whether it stands closer, and how high it is then at most. It is no larger than its face on other pages.
     readonly property real usual: 192 * Theme.unit
     readonly property bool close: form.spare >= 0.5 * usual

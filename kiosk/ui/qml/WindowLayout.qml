@@ -52,7 +52,7 @@ QtObject {
     readonly property real uprightHeight: high ? (board !== null ? Math.min(free, board.boardLayout.wish) : free)
         : unwatched ? room - uprightFoot : room * uprightShare
     // What stands below a form without an onlooker: the controls, and the helper's back, unless large texts need its height.
-    readonly property real uprightFoot: Math.max(corner.height + Theme.gap, Theme.textSize <= 1 ? 180 * Theme.unit : 0)
+    readonly property real uprightFoot: Math.max(corner.height + Theme.gap, Theme.textSize <= 1 ? 144 * Theme.unit : 0)
     // Board and assistant stand close together: the board takes what its cards need, at least half of the screen.
     readonly property real uprightShare: !speaks ? (Theme.textSize > 1.15 && kiosk.screen !== "form" ? 0.84 : 0.78)
         : kiosk.screen === "attract" ? (Theme.textSize > 1.3 ? 0.76 : Math.max(helper.says ? 0.57 : 0.64, 0.57 + 0.25 * (Theme.textSize - 1)))

@@ -22,6 +22,8 @@ Item {
     // options are.
     property real loosened: 0
     property real grown: 0
+    // How far below the place of the first of two lines its statement begins.
+    property real lowered: 0
     // Whether all options of it are as high as the highest.
     property bool even: false
     // Whether the keys on the screen type into it.
@@ -53,16 +55,27 @@ Item {
     readonly property int optionRows: choices?.rows ?? 0
     readonly property ChoiceList choices: way.item as ChoiceList
     // How high it is without all that, and how much can be added to the distances.
-    readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asks + (way.active ? usualSpacing + (choices?.least ?? way.height) : 0)) + 2 * usualMargin
-    // How much height its question and its scale leave of what two lines and a scale of five points take: on such a page
-    // all cards are as high, and cards and scales stand at the same places on all pages with as many. A question of one
-    // line stands in the middle of the height of two.
-    readonly property real lacks: page.ample ? Math.max(0, Math.ceil((1 + question.lineHeight) * lineOf.height) - told.height) : 0
-    readonly property real leaves: lacks + (page.ample ? 2 * ((way.item as PointScale)?.inset ?? 0) : 0)
-    readonly property real asks: told.height + leaves
+    readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asks + (way.active ? usualSpacing + (choices?.least ?? way.height) : 0)) + 2 * usualMargin - Math.min(over, flexible)
+    // How much height its statement and its scale leave of what two lines and a scale of five points take: on such a page
+    // all cards are as high, and cards and scales stand at the same places on all pages with as many.
+    readonly property real lacks: page.ample ? Math.max(0, Math.ceil((1 + question.lineHeight) * lineOf.height) - question.height) : 0
+    readonly property real inset: page.ample ? (way.item as PointScale)?.inset ?? 0 : 0
+    // How much more a word takes that it is missed, and how much of that its distances can give: its card stays as high.
+    readonly property real over: page.ample ? Math.max(0, lowered + told.height - question.height - lacks) : 0
+    readonly property real flexible: page.ample ? usualSpacing + closest - leastSpacing + 2 * (usualMargin - leastMargin) : 0
+    readonly property real asks: page.ample ? question.height + lacks + over + 2 * inset : told.height
     readonly property real addable: page.alone || beside || roomy !== null ? 0 : (page.ample ? 48 : 32) * Theme.unit
     readonly property real usualSpacing: roomy?.spacing ?? (page.solo ? lone.spacing : page.alone ? 2 * Theme.gap : spacingUnits() * Theme.unit)
-    readonly property real margin: usualMargin + addable / 2 * loosened
+    // What is added goes between a statement and its points before it goes to the margins of their card.
+    readonly property real closest: 22 * Theme.unit
+    readonly property real leastSpacing: 6 * Theme.unit
+    readonly property real leastMargin: 9 * Theme.unit
+    readonly property real between: page.ample || page.scarce ? Math.min(closest, addable * loosened) : 0
+    // A word that it is missed takes of the first, and then of the others.
+    readonly property real given: Math.max(0, Math.min(over, usualSpacing + between - leastSpacing))
+    readonly property real spacing: usualSpacing + between - given
+    readonly property real loose: usualMargin + (addable * loosened - between) / 2
+    readonly property real margin: Math.max(Math.min(loose, leastMargin), loose - (over - given) / 2)
     readonly property real usualMargin: bare ? 0 : roomy?.margin ?? (page.solo ? lone.margin
         : rows.own || rows.table ? Math.max((rows.table ? 4 : 10) * Theme.unit, rows.margin - taken / 2) : marginUnits() * Theme.unit)
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
@@ -75,12 +88,11 @@ Item {
     })
 
     // How far its question is from its scale or its options among other items, and its content from the card's edges.
-    // A word that it is missed takes some of both where cards are alike: four with that word still fit an upright page.
     function spacingUnits(): real {
         if (page.dense)
             return 4
         if (page.ample)
-            return missed && Theme.textSize <= 1 ? 6 : 16
+            return 16
         if (page.easy)
             return 18
         if (page.airy)
@@ -95,7 +107,7 @@ Item {
         if (page.tight)
             return 10
         if (page.ample)
-            return missed ? 9 : 18
+            return 15
         if (page.easy)
             return inline ? 28 : 30
         if (page.airy)
@@ -212,7 +224,7 @@ Item {
         id: content
         anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; verticalCenterOffset: box.head / 2 - box.raised; margins: box.bare ? 0 : box.page.inset }
         // The word that a rating alone is missed stands in that distance, and its points stay where they are.
-        spacing: box.page.solo && box.missed ? Math.max(20 * Theme.unit, box.usualSpacing - told.spacing - note.height) : box.usualSpacing
+        spacing: box.page.solo && box.missed ? Math.max(20 * Theme.unit, box.usualSpacing - told.spacing - note.height) : box.spacing
 
         Item {
             id: asked
@@ -229,9 +241,9 @@ Item {
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.leaves / 2
+                y: box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.inset + box.lowered
                 width: box.beside && !box.crowned ? box.rows.textWidth : box.inline ? asked.width - box.questions.fieldWidth : asked.width
-                spacing: box.inline || box.rows.table ? 0 : box.page.solo ? 12 * Theme.unit : box.page.ample ? 4 * Theme.unit : content.spacing
+                spacing: box.inline || box.rows.table ? 0 : box.page.solo ? 12 * Theme.unit : box.page.ample ? 4 * Theme.unit : box.usualSpacing
                 Balanced {
                     id: question
                     width: parent.width
@@ -288,7 +300,7 @@ Item {
                 id: way
                 readonly property real room: box.beside && !box.crowned ? box.rows.scaleWidth - box.rows.beyond : asked.width
                 x: Theme.across(box.crowned ? 0 : box.beside ? asked.width - box.rows.scaleWidth : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.crowned ? asked.height - height : box.rows.flank ? asked.middle - height / 2 : box.rows.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.y + told.height + box.lacks / 2 + content.spacing
+                y: box.crowned ? asked.height - height : box.rows.flank ? asked.middle - height / 2 : box.rows.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : box.asks - box.inset + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null

@@ -44,6 +44,8 @@ QtObject {
     readonly property bool easy: few && upright && !alone
     // Whether a few ratings have an upright page.
     readonly property bool rated: airy && !alone && rates
+    // The same with large texts: what the page leaves goes first to where it is scarce.
+    readonly property bool scarce: large && largeText && !alone && rates
     // For how many cards it has height with large distances between a question and its scale, even with two lines in each,
     // and whether these are enough.
     readonly property int fits: rated ? Math.floor(free / (widths.leading * (2 * Theme.size(38) + Theme.size(30))
