@@ -24,6 +24,9 @@ PageFrame {
         : [[32, 34, 0.9, 0.9], [32, 34, 0.9, 0.5], [32, 33, 0.6, 0.35], [31, 31, 0.6, 0.35], [31, 31, 0.4, 0.25], [29, 29, 0.4, 0.25]]
     readonly property int fitting: short ? sizes.findIndex(([point, box, apart, inside]) => tall(point, box, apart, inside) <= pane.room) : -1
     readonly property real heads: Theme.size(upright ? 40 : 38)
+    // The heading of a box that is up to the visitor, and how far above it. Large texts need the room themselves.
+    readonly property real tagSize: Theme.textSize > 1 ? Theme.size(28) : heads
+    readonly property real tagGap: Theme.textSize > 1 ? 0 : 12 * Theme.unit
     // How far the boxes of a card keep from its edges: at its sides, and above and below.
     readonly property real inset: (upright ? 22 : 24) * Theme.unit
     readonly property real pad: (upright ? 24 : 22) * Theme.unit
@@ -39,10 +42,10 @@ PageFrame {
     }
     // About how high points and boxes are, with letters of these sizes, so many gaps apart.
     function tall(pointSize: real, boxSize: real, apart: real, inside: real): real {
-        const wide = paired ? 0.5 * column - Theme.gap : column, [point, box, tag] = [pointSize, boxSize, 28].map(size => Math.round(Theme.size(size)))
+        const wide = paired ? 0.5 * column - Theme.gap : column, [point, box] = [pointSize, boxSize].map(size => Math.round(Theme.size(size)))
         const points = read.map(each => Math.max(badge * point, 1.48 * point * widths.plainLines(each.text, point, wide - badge * point - Theme.gap)))
-        const boxes = consent.purposes.map(purpose => 2 * inside * Theme.gap + Math.max((upright ? 76 : 64) * Theme.unit,
-            (purpose.required ? 0 : lineOf(tag)) + lineOf(box) * widths.plainLines(purpose.text, box, column - 2 * inset - 144 * Theme.unit)))
+        const boxes = consent.purposes.map(purpose => 2 * inside * Theme.gap + (purpose.required ? 0 : Math.ceil(1.37 * tagSize) + tagGap) + Math.max((upright ? 76 : 64) * Theme.unit,
+            lineOf(box) * widths.plainLines(purpose.text, box, column - 2 * inset - 144 * Theme.unit)))
         const needed = consent.purposes.filter(purpose => purpose.required).length
         return (paired ? Math.max(...points) : sum(points)) + sum(boxes) + 1.2 * heads + 2 * pad
             + (apart * (0.9 * (paired ? 0 : read.length - 1) + needed) + Math.min(1.6, 0.2 + apart) * (1 + consent.purposes.length - needed)) * Theme.gap
@@ -293,6 +296,9 @@ PageFrame {
                                 needed: purpose.modelData.required
                                 headed: purpose.inside
                                 tagged: boxes.grouped && !purpose.inside
+                                tagSize: view.tagSize
+                                tagGap: view.tagGap
+                                outdent: 28 * Theme.unit
                                 lighter: !purpose.modelData.required && boxes.needs
                                 on: view.consent.ticks.includes(purpose.modelData.id)
                                 note: tagged ? boxes.optional : view.words[purpose.modelData.required ? "consent-required" : "consent-optional"]

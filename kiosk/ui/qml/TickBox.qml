@@ -11,8 +11,11 @@ Choosable {
     property bool needed: false
     // Whether a heading above it says so instead; the box still tells it to those who cannot see it.
     property bool headed: false
-    // Whether that stands above its words.
+    // Whether that stands above it as its heading, how large, how far above it, and how much further out than its mark.
     property bool tagged: false
+    property real tagSize: Theme.small
+    property real tagGap: 0
+    property real outdent: 0
     // Whether it may be left out, beside others that are needed.
     property bool lighter: false
     // What stands there instead, once it is ticked.
@@ -35,9 +38,14 @@ Choosable {
 
     background: Rectangle {
         radius: Theme.radius
+        // In a card with others it needs no field of its own.
+        readonly property bool plain: box.headed && !Theme.highContrast
         // What is ticked is darker; the pointer over it changes the edge alone.
-        color: !box.on ? (box.lighter ? Theme.white : Theme.touchable) : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.14))
-        border { color: box.warning ? Theme.deepAmber : box.lighter && !box.on && !box.hovered && !Theme.highContrast ? Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.45)) : Theme.sea; width: (box.warning || box.hovered || box.on ? 4 : 2) * Theme.unit }
+        color: !box.on ? (box.lighter || plain ? Theme.white : Theme.touchable) : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.14))
+        border {
+            color: box.warning ? Theme.deepAmber : box.hovered || box.on || Theme.highContrast || !box.lighter ? Theme.sea : box.tagged ? Theme.edge : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.45))
+            width: (box.warning || box.hovered ? 4 : plain ? 0 : box.on ? 4 : box.tagged ? 3 : 2) * Theme.unit
+        }
         FocusRing {
             around: box
             reach: 7 * Theme.unit
@@ -69,12 +77,25 @@ Choosable {
         readonly property bool below: noted && box.broad && noteWidth <= room
         // A word that it is missed takes from the air above and below the words first: what is below moves little.
         readonly property real yields: box.warning === "" || box.terse ? 0 : Math.min(warned.height, Math.max(0, 2 * box.verticalPadding - 4 * Theme.unit))
-        implicitHeight: Math.max(box.large && box.roomy ? 76 * Theme.unit : mark.height, told.height - yields)
+        // Where its words and its mark begin.
+        readonly property real begin: box.tagged ? Math.ceil(1.37 * box.tagSize) + box.tagGap : 0
+        implicitHeight: begin + Math.max(box.large && box.roomy ? 76 * Theme.unit : mark.height, told.height - yields)
         implicitWidth: mark.width
+        PlainText {
+            objectName: "tag"
+            visible: box.tagged
+            x: Theme.across(-box.outdent, width, parts.width)
+            width: parts.width + box.outdent
+            text: box.note
+            font { pixelSize: box.tagSize; bold: true }
+            fontSizeMode: Text.HorizontalFit
+            minimumPixelSize: Theme.size(24)
+            Accessible.ignored: true
+        }
         Rectangle {
             id: mark
             x: Theme.across(0, width, parts.width)
-            y: (parts.height - height) / 2
+            y: parts.begin + (parts.height - parts.begin - height) / 2
             width: (box.large ? 64 : 48) * Theme.unit
             height: width
             radius: 0.2 * width
@@ -98,16 +119,8 @@ Choosable {
         Column {
             id: told
             x: Theme.across(mark.width + parts.after, width, parts.width)
-            y: (parts.height - height) / 2
+            y: parts.begin + (parts.height - parts.begin - height) / 2
             width: parts.room - (parts.beside ? parts.noteWidth + parts.clear : 0)
-            PlainText {
-                objectName: "tag"
-                width: parent.width
-                visible: box.tagged
-                text: box.note
-                font { pixelSize: Theme.size(28); bold: true }
-                Accessible.ignored: true
-            }
             Balanced {
                 width: parent.width
                 text: box.words
