@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from pathlib import Path
 from typing import NoReturn
 
 from kiosk.sd_notify import BEAT_WITHIN, PIPE, SOCKET
@@ -54,6 +55,17 @@ def memory_mib(process: int) -> int:
         return 0
 
 
+def _held_mib() -> int | None:
+    """How much memory this process takes; None where Linux does not tell.
+
+    Asked before the guard begins: on a busy machine, much of what is to be watched may be taken until it does.
+    """
+    try:
+        return int(Path("/proc/self/statm").read_text("ascii").split()[1]) * os.sysconf("SC_PAGE_SIZE") // MIB
+    except OSError:
+        return None
+
+
 def _processor_s(process: int) -> float:
     """How much time on a processor a process has had; 0 if it is gone."""
     import psutil
@@ -89,10 +101,10 @@ def guarded(limits: Limits = Limits(), environment: Mapping[str, str] = os.envir
         yield lambda: None
         return
     reader, writer = os.pipe()
-    guarded_process = os.getpid()
+    guarded_process, held_mib = os.getpid(), _held_mib()
     guard = os.fork()
     if guard == 0:
-        _guard(guarded_process, reader, writer, limits)
+        _guard(guarded_process, reader, writer, limits, held_mib)
     os.close(reader)
     os.set_blocking(writer, False)
     before = signal.set_wakeup_fd(writer, warn_on_full_buffer=False)
@@ -118,7 +130,7 @@ def _beat(writer: int) -> None:
         os.write(writer, bytes([BEAT]))
 
 
-def _guard(process: int, reader: int, writer: int, limits: Limits) -> NoReturn:
+def _guard(process: int, reader: int, writer: int, limits: Limits, held_mib: int | None) -> NoReturn:
     """Be the guard; nothing of the process that it was forked from is used, or cleared away."""
     try:
         gc.disable()
@@ -129,7 +141,7 @@ def _guard(process: int, reader: int, writer: int, limits: Limits) -> NoReturn:
         nothing = os.open(os.devnull, os.O_RDWR)
         os.dup2(nothing, 0)
         os.dup2(nothing, 1)
-        fault = _watch(process, reader, limits)
+        fault = _watch(process, reader, limits, held_mib)
         if fault and os.getppid() == process:
             with suppress(OSError):
                 os.write(2, f"recollect: {fault}, so it was ended\n".encode())
@@ -138,10 +150,11 @@ def _guard(process: int, reader: int, writer: int, limits: Limits) -> NoReturn:
         os._exit(0)
 
 
-def _watch(process: int, reader: int, limits: Limits) -> str:
+def _watch(process: int, reader: int, limits: Limits, held_mib: int | None) -> str:
     """Read the pipe to its end; returns what is wrong, or nothing if the process has ended by itself."""
     watch = _Watch(limits)
-    last, used, before_mib = time.monotonic(), _processor_s(process), memory_mib(process)
+    last, used = time.monotonic(), _processor_s(process)
+    before_mib = memory_mib(process) if held_mib is None else held_mib
     while (told := _read(reader, limits.tick)) != b"":
         now = time.monotonic()
         # Where everything stood still for a while, the guard too, silence is no fault of the process's.

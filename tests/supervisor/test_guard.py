@@ -153,3 +153,12 @@ def test_a_second_request_does_not_begin_the_time_anew() -> None:
 
 def test_other_signals_ask_for_nothing() -> None:
     assert looks(BEAT, *[bytes([signal.SIGCHLD]) + BEAT] * 50)[-1] == ""
+
+
+def test_memory_counts_from_before_the_guard_began() -> None:
+    """A guard that begins late, as on a busy machine, would take what was taken meanwhile for what was there before."""
+    reader, writer = os.pipe()
+    fault = guard._watch(os.getpid(), reader, Limits(memory_mib=1), held_mib=0)
+    for end in (reader, writer):
+        os.close(end)
+    assert fault.endswith("MiB of memory and may take 1")
