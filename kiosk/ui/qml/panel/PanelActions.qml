@@ -224,6 +224,7 @@ Column {
             width: actions.across
             least: actions.tall
             grave: true
+            centred: !actions.wide
             ground: Theme.white
             horizontalPadding: actions.edge
             font.pixelSize: actions.lettering

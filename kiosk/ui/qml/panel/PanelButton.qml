@@ -29,6 +29,8 @@ Button {
     property real sign: drawing === "" ? 0 : (stacked ? 1.9 : 1.45) * font.pixelSize
     // Whether the drawing stands above its words, which then wrap as they need.
     property bool stacked: false
+    // Whether drawing and words stand in its middle, beside each other.
+    property bool centred: false
     property color front: solid ? Theme.white : enabled ? tone : Theme.faintInk
 
     width: Math.min(Math.ceil(implicitWidth), parent?.width ?? Infinity)
@@ -55,6 +57,7 @@ Button {
         id: parts
         readonly property real before: button.sign > 0 && !button.stacked ? button.sign + 0.6 * button.font.pixelSize : 0
         readonly property real above: button.stacked ? button.sign + 0.3 * button.font.pixelSize : 0
+        readonly property real start: button.centred && !button.stacked ? Math.max(0, (width - implicitWidth) / 2) : 0
         implicitWidth: before + Math.ceil(natural.advanceWidth) + 1
         implicitHeight: button.stacked ? above + letters.implicitHeight : Math.max(button.sign, letters.implicitHeight)
         TextMetrics {
@@ -64,7 +67,7 @@ Button {
         }
         Drawing {
             visible: button.drawing !== ""
-            x: ((button.stacked ? parts.width : button.sign) - width) / 2
+            x: parts.start + ((button.stacked ? parts.width : button.sign) - width) / 2
             y: (button.stacked ? 0.3 * parts.height : 0.5 * parts.height) - height / 2
             scale: button.sign / 24
             path: button.drawing
@@ -72,10 +75,10 @@ Button {
         }
         Balanced {
             id: letters
-            x: parts.before
+            x: parts.start + parts.before
             // Level with those of its neighbours, however many lines they have.
             y: (button.stacked ? 0.72 * parts.height : 0.5 * parts.height) - height / 2
-            width: parts.width - parts.before
+            width: parts.width - parts.before - parts.start
             text: button.words
             font: button.font
             color: button.front
