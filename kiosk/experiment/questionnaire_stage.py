@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import groupby
 from random import Random
 
 from kiosk.experiment import effects as do
@@ -28,22 +29,29 @@ class ItemPage:
 
 
 def item_pages(questionnaire: Questionnaire, chance: Random) -> Iterator[ItemPage]:
-    """Yield the pages of a questionnaire, in the order of this session."""
-    together: list[Item] = []
-    for item in _ordered(questionnaire, chance):
-        if isinstance(item, TextPage) or len(together) == questionnaire.per_page:
-            yield from _page_of(questionnaire, together)
-            together = []
-        if isinstance(item, TextPage):
-            yield ItemPage(questionnaire.id, (item,), questionnaire.title)
-        else:
-            together.append(item)
-    yield from _page_of(questionnaire, together)
+    """Yield the pages of a questionnaire, in the order of this session.
+
+    A text page stands alone. Items between two of them are shared out evenly: 10 items, at most 4 on a page, make pages
+    of 4, 3 and 3.
+    """
+    ordered = _ordered(questionnaire, chance)
+    for alone, together in groupby(ordered, key=lambda item: isinstance(item, TextPage)):
+        for items in _shared_out(tuple(together), 1 if alone else questionnaire.per_page):
+            yield ItemPage(questionnaire.id, items, questionnaire.title)
 
 
-def _page_of(questionnaire: Questionnaire, items: list[Item]) -> Iterator[ItemPage]:
-    if items:
-        yield ItemPage(questionnaire.id, tuple(items), questionnaire.title)
+def _shared_out(items: tuple[Item, ...], most: int) -> Iterator[tuple[Item, ...]]:
+    """Yield the items in as few groups as hold them.
+
+    The first groups have one item more where not all can be alike.
+    """
+    groups = -(-len(items) // most)
+    least, larger = divmod(len(items), groups)
+    begin = 0
+    for number in range(groups):
+        end = begin + least + (number < larger)
+        yield items[begin:end]
+        begin = end
 
 
 def pages_alike(pages: Sequence[tuple[Item, ...]], page: tuple[Item, ...]) -> tuple[tuple[Item, ...], ...]:

@@ -25,9 +25,6 @@ Button {
     property real underSize: Theme.small
     property int underLines: 1
     readonly property real underTall: under === "" ? 0 : Math.ceil(1.37 * underLines * underSize)
-    // Whether it is as pale as all that can be chosen, with its colour in its edge: one that wants something else first, and
-    // all that are to look like it.
-    property bool hollow: false
     // How round it is at most.
     property real corner: Infinity
     property real letters: Theme.onButtons
@@ -79,7 +76,7 @@ Button {
         textFormat: Text.PlainText
         text: button.words
         font: button.font
-        color: !button.quiet && !button.hollow ? Theme.white : button.waits ? Theme.faintInk : Theme.sea
+        color: !button.quiet ? Theme.white : button.waits ? Theme.faintInk : Theme.sea
         horizontalAlignment: Text.AlignHCenter
         verticalAlignment: Text.AlignVCenter
         // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
@@ -113,16 +110,16 @@ Button {
         wrapMode: button.underLines > 1 ? Text.Wrap : Text.NoWrap
         horizontalAlignment: Text.AlignHCenter
         verticalAlignment: Text.AlignVCenter
-        color: button.hollow ? Theme.ink : Theme.white
+        color: Theme.white
         Accessible.ignored: true
     }
     background: Rectangle {
         id: ground
         radius: Math.min(height / 2, button.topPadding + button.font.pixelSize, button.corner)
-        color: button.waits ? Theme.resting : button.quiet ? "transparent" : button.hollow ? (button.hovered ? Theme.stated : Theme.touchable) : button.hovered ? Theme.lightSea : Theme.sea
+        color: button.waits ? Theme.resting : button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
         // Without an edge it looks at rest. With high contrast the edge is all that shows where it is.
-        border.color: button.waits ? Theme.slot : button.hollow ? Theme.sea : Theme.shy
-        border.width: button.waits && !Theme.highContrast ? 0 : button.quiet || button.hollow || button.waits ? 3 * Theme.unit : 0
+        border.color: button.waits ? Theme.slot : Theme.shy
+        border.width: button.waits && !Theme.highContrast ? 0 : button.quiet || button.waits ? 3 * Theme.unit : 0
         FocusRing {
             around: button
             radius: ground.radius + reach

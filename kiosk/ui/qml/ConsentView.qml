@@ -44,7 +44,7 @@ PageFrame {
     function tall(pointSize: real, boxSize: real, apart: real, inside: real): real {
         const wide = paired ? 0.5 * column - Theme.gap : column, [point, box] = [pointSize, boxSize].map(size => Math.round(Theme.size(size)))
         const points = read.map(each => Math.max(badge * point, 1.48 * point * widths.plainLines(each.text, point, wide - badge * point - Theme.gap)))
-        const boxes = consent.purposes.map(purpose => 2 * inside * Theme.gap + (purpose.required ? 0 : Math.ceil(1.37 * tagSize) + tagGap) + Math.max((upright ? 76 : 64) * Theme.unit,
+        const boxes = consent.purposes.map(purpose => 2 * inside * Theme.gap + (purpose.required ? 0 : Math.ceil(1.37 * tagSize) + 2 * tagGap) + Math.max((upright ? 76 : 64) * Theme.unit,
             lineOf(box) * widths.plainLines(purpose.text, box, column - 2 * inset - 144 * Theme.unit)))
         const needed = consent.purposes.filter(purpose => purpose.required).length
         return (paired ? Math.max(...points) : sum(points)) + sum(boxes) + 1.2 * heads + 2 * pad
@@ -63,8 +63,6 @@ PageFrame {
     other: words["consent-decline"]
     way.name: "agree"
     way.even: true
-    // Both are filled once both can be chosen.
-    way.hollow: consent.toGo !== ""
     way.follows: consent.toGo || words["consent-agree-line"]
     way.otherFollows: words["consent-decline-line"]
     way.reason: way.follows
@@ -291,6 +289,7 @@ PageFrame {
                                 horizontalPadding: (large ? 28 : 17) * Theme.unit + (boxes.grouped && !purpose.inside ? boxes.inset : 0)
                                 font.pixelSize: !large ? Theme.reading : Theme.size(view.used[1])
                                 roomy: view.upright
+                                bottomPadding: verticalPadding + (tagged ? view.tagGap : 0)
                                 verticalPadding: (large ? view.used[3] : view.short ? 0.25 : 0.45) * Theme.gap
                                 words: purpose.modelData.text
                                 needed: purpose.modelData.required

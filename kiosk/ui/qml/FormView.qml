@@ -218,8 +218,6 @@ PageFrame {
             readonly property real loosened: (shape.calm || shape.rated || shape.scarce) && addable > 0 ? Math.max(0, Math.min(1, (room / share - plain - optionRows * grown) / addable)) : 0
             readonly property real tall: summed(box => box.height)
             readonly property real heads: summed(box => box.head)
-            // How much all statements of the page leave of the height of two lines: those of one line stand in the middle of it.
-            readonly property real lacking: shape.ample ? view.all().reduce((least, box) => Math.min(least, box?.lacks ?? 0), Infinity) : 0
             // Adds up what each item that is there has of something.
             function summed(of: var): real {
                 return view.all().reduce((sum, box) => sum + (box?.there ? of(box) : 0), 0)
@@ -245,7 +243,6 @@ PageFrame {
                     questions: plainQuestions
                     loosened: pane.loosened
                     grown: pane.grown
-                    lowered: pane.lacking / 2
                     even: pane.even
                     // Over an upright page the keys cover other questions: these step back until they can be seen again.
                     opacity: keyboard.card === asked || !view.under ? 1 : 0.3

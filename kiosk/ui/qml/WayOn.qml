@@ -23,8 +23,7 @@ FocusScope {
     property string other: ""
     // Whether both are alike: as large, and with the same look, so that the page favours neither.
     property bool even: false
-    // Whether they are not filled yet, and what follows from each, in smaller letters below its words.
-    property bool hollow: false
+    // What follows from each, in smaller letters below its words.
     property string follows: ""
     property string otherFollows: ""
     readonly property bool lined: follows !== "" && otherFollows !== ""
@@ -137,7 +136,6 @@ FocusScope {
         height: Math.round(ways.even && ways.refuses ? Math.max(implicitHeight, no.implicitHeight) : implicitHeight)
         corner: ways.abreast ? no.topPadding + no.font.pixelSize : Infinity
         quiet: ways.quiet
-        hollow: ways.hollow
         under: ways.lined ? ways.follows : ""
         underSize: ways.lineSize
         underLines: ways.lineCount
@@ -163,7 +161,6 @@ FocusScope {
         y: ways.level ? go.y : 0
         height: ways.even ? go.height : implicitHeight
         quiet: !ways.even
-        hollow: ways.hollow
         under: ways.lined ? ways.otherFollows : ""
         underSize: ways.lineSize
         underLines: ways.lineCount

@@ -22,8 +22,6 @@ Item {
     // options are.
     property real loosened: 0
     property real grown: 0
-    // How far below the place of the first of two lines its statement begins.
-    property real lowered: 0
     // Whether all options of it are as high as the highest.
     property bool even: false
     // Whether the keys on the screen type into it.
@@ -59,6 +57,8 @@ Item {
     // How much height its statement and its scale leave of what two lines and a scale of five points take: on such a page
     // all cards are as high, and cards and scales stand at the same places on all pages with as many.
     readonly property real lacks: page.ample ? Math.max(0, Math.ceil((1 + question.lineHeight) * lineOf.height) - question.height) : 0
+    // One line stands in the middle of the height of two.
+    readonly property real lowered: lacks / 2
     readonly property real inset: page.ample ? (way.item as PointScale)?.inset ?? 0 : 0
     // How much more a word takes that it is missed, and how much of that its distances can give: its card stays as high.
     readonly property real over: page.ample ? Math.max(0, lowered + told.height - question.height - lacks) : 0
