@@ -48,7 +48,7 @@ def test_every_questionnaire_says_whose_wording_it_is(file: Path) -> None:
 def test_the_scales_of_the_study_are_its_four_with_its_two_reversed_items() -> None:
     questionnaire = shipped("social-intelligence")
     assert questionnaire.order is ItemOrder.SHUFFLED
-    assert questionnaire.per_page == 3
+    assert questionnaire.per_page == 4
     names = {scale: [item.id for item in items] for scale, items in questionnaire.scales.items()}
     assert names == {scale: [f"{scale}{number}" for number in range(1, 5)] for scale in ("SOC", "AC", "PC", "RC")}
     ratings = [item for item in questionnaire.items if isinstance(item, Rating)]

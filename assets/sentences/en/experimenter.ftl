@@ -33,7 +33,7 @@ console-close = Close
 console-keys = Tab and arrows go around, Enter does it, Esc closes. Left alone for a minute, it closes by itself.
 console-all-well = All is well
 console-session-none = No visitor is there
-console-session-paused = Goes on when you close this
+console-session-paused = Paused until you close this
 console-session-stays = Stays paused after closing
 
 ## The first page

@@ -33,7 +33,7 @@ console-close = Cerrar
 console-keys = Tab y flechas para moverse, Intro para hacer, Esc para cerrar. Tras un minuto sin nadie se cierra solo.
 console-all-well = Todo está bien
 console-session-none = No hay nadie
-console-session-paused = Sigue al cerrar este panel
+console-session-paused = En pausa hasta cerrar
 console-session-stays = En pausa también después
 
 ## The first page

@@ -33,7 +33,7 @@ console-close = Chiudi
 console-keys = Tab e frecce per spostarsi, Invio per eseguire, Esc per chiudere. Dopo un minuto senza nessuno si chiude da sé.
 console-all-well = Tutto bene
 console-session-none = Non c’è nessuno
-console-session-paused = Riprende quando chiudi
+console-session-paused = In pausa finché non chiudi
 console-session-stays = In pausa anche dopo
 
 ## The first page

@@ -256,6 +256,18 @@ PageFrame {
                         x: boxes.inset
                         width: boxes.width - 2 * x
                         height: Math.ceil(letters.height)
+                        // How many are still to be ticked, at the end of its line if both have room there.
+                        PlainText {
+                            objectName: "consent-count"
+                            visible: text !== "" && heading.fontInfo.pixelSize >= view.heads && heading.contentWidth + implicitWidth + 2 * Theme.gap <= heading.width
+                            x: Theme.across(parent.width - width, width, parent.width)
+                            height: parent.height
+                            text: view.consent.toGo
+                            font { pixelSize: Theme.size(32); bold: true }
+                            color: Theme.sea
+                            verticalAlignment: Text.AlignVCenter
+                            Accessible.ignored: true
+                        }
                         text: view.words["consent-needed"]
                         font { pixelSize: view.heads; bold: true }
                         fontSizeMode: Text.HorizontalFit
@@ -290,7 +302,7 @@ PageFrame {
                                 font.pixelSize: !large ? Theme.reading : Theme.size(view.used[1])
                                 roomy: view.upright
                                 bottomPadding: verticalPadding + (tagged ? view.tagGap : 0)
-                                verticalPadding: (large ? view.used[3] : view.short ? 0.25 : 0.45) * Theme.gap
+                                verticalPadding: (large ? (purpose.inside ? 0.85 : 1) * view.used[3] : view.short ? 0.25 : 0.45) * Theme.gap
                                 words: purpose.modelData.text
                                 needed: purpose.modelData.required
                                 headed: purpose.inside
