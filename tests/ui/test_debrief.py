@@ -441,7 +441,7 @@ def test_the_debriefing_on_a_wide_screen_has_letters_of_three_sizes(booth: Booth
     shown_at(booth, qtbot, "debrief", 1920, 1080)
     shown = [item for item in items(booth.app.window.contentItem()) if lies_in(item, "DebriefPoints", "TakeHomeCard")]
     letters = [item for item in shown if item.inherits("QQuickText") and item.property("text")]
-    assert {item.property("font").pixelSize() for item in letters} == {34, 44, 56}
+    assert {item.property("font").pixelSize() for item in letters} == {34, 42, 56}
 
 
 @pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])

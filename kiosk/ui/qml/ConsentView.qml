@@ -21,7 +21,7 @@ PageFrame {
     // whether even the smallest are too large.
     readonly property bool upright: width < height
     readonly property var sizes: upright ? [[36, 36, 1, 0.8], [36, 36, 0.7, 0.6], [36, 36, 0.6, 0.5], [36, 36, 0.4, 0.35], [36, 36, 0.4, 0.25], [34, 33, 0.6, 0.4], [34, 33, 0.4, 0.35], [32, 31, 0.4, 0.25], [31, 31, 0.4, 0.2], [30, 29, 0.4, 0.2]]
-        : [[32, 34, 0.9, 0.9], [32, 34, 0.9, 0.5], [32, 33, 0.6, 0.35], [31, 31, 0.6, 0.35], [31, 31, 0.4, 0.25], [29, 29, 0.4, 0.25]]
+        : [[34, 34, 0.9, 0.9], [32, 34, 0.9, 0.9], [32, 34, 0.9, 0.5], [32, 33, 0.6, 0.35], [31, 31, 0.6, 0.35], [31, 31, 0.4, 0.25], [29, 29, 0.4, 0.25]]
     readonly property int fitting: short ? sizes.findIndex(([point, box, apart, inside]) => tall(point, box, apart, inside) <= pane.room) : -1
     readonly property real heads: Theme.size(upright ? 40 : 38)
     // The heading of a box that is up to the visitor, and how far above it. Large texts need the room themselves.
@@ -63,9 +63,9 @@ PageFrame {
     other: words["consent-decline"]
     way.name: "agree"
     way.even: true
-    way.follows: consent.toGo || words["consent-agree-line"]
+    way.follows: words["consent-agree-line"]
     way.otherFollows: words["consent-decline-line"]
-    way.reason: way.follows
+    way.reason: consent.toGo || way.follows
     way.otherName: "decline"
     onWent: consent.agree()
     onTurnedDown: consent.decline()

@@ -38,10 +38,10 @@ Choosable {
 
     background: Rectangle {
         radius: Theme.radius
-        // In a card with others it needs no field of its own.
+        // In a card with others its field has no edge.
         readonly property bool plain: box.headed && !Theme.highContrast
         // What is ticked is darker; the pointer over it changes the edge alone.
-        color: !box.on ? (box.lighter || plain ? Theme.white : Theme.touchable) : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.14))
+        color: !box.on ? (box.lighter ? Theme.white : Theme.touchable) : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.14))
         border {
             color: box.warning ? Theme.deepAmber : box.hovered || box.on || Theme.highContrast || !box.lighter ? Theme.sea : box.tagged ? Theme.edge : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.45))
             width: (box.warning || box.hovered ? 4 : plain ? 0 : box.on ? 4 : box.tagged ? 3 : 2) * Theme.unit

@@ -60,12 +60,13 @@ QtObject {
     }
     // How wide a strip beside the way on is, and how high with a code of this side, texts of this size, and the code in large
     // letters.
-    readonly property real footWidth: column - wayWidth - 2 * Theme.gap
+    readonly property real footWidth: column - wayWidth - Theme.gap
+    readonly property real footPad: 0.4 * Theme.gap
     function footHeight(side: real, note: real, letters: real): real {
-        const width = (Theme.unit < 0.9 ? 0.95 : 0.98) * (footWidth - codeSide(side) - 1.5 * Theme.gap - 2 * rim)
+        const width = (Theme.unit < 0.9 ? 0.95 : 0.98) * (footWidth - 2 * footPad - codeSide(side) - 1.5 * Theme.gap - 2 * rim)
         const lines = [codeName, ...notes].filter(text => text !== "").reduce((sum, text) => sum + widths.plainLines(text, note, width), 0)
         const told = lines * lineHeight(note) + 0.2 * Theme.gap * notes.filter(text => text !== "").length
-        return Math.max(codeSide(side) + 2 * rim, told + 1.22 * letters)
+        return Math.max(codeSide(side) + 2 * rim, told + 1.22 * letters) + 2 * footPad
     }
     // How high the card is about, with a code of this side and so much air, texts in these sizes, and the code in large
     // letters. Without a heading, what names the code is as large as what is said about it.

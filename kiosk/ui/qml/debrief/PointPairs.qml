@@ -56,7 +56,7 @@ QtObject {
     function lettersOf(footed: bool): real {
         return Theme.size(page.upright ? 72 : footed ? 56 : 64)
     }
-    readonly property real pad: footed ? 0 : Theme.gap
+    readonly property real pad: footed ? page.footPad : Theme.gap
 
     // The drawing on a card is above the words where a card is narrow or high.
     readonly property bool above: page.upright || footed

@@ -27,9 +27,9 @@ Rectangle {
     visible: there
     height: there ? Math.max(pictureHeight, told.height) + 2 * pad : 0
     radius: Theme.radius
-    // Below two cards it is a quiet strip, and beside the way on it has no ground of its own.
-    color: footed ? "transparent" : sizes.paired ? Theme.shelf : Theme.white
-    border { color: Theme.edge; width: footed || sizes.paired && !Theme.highContrast ? 0 : 3 * Theme.unit }
+    // Below two cards it is a quiet strip, and beside the way on a card as they are.
+    color: sizes.paired && !footed ? Theme.shelf : Theme.white
+    border { color: Theme.edge; width: sizes.paired && !footed && !Theme.highContrast ? 0 : 3 * Theme.unit }
 
     component Note: Balanced {
         width: told.width
@@ -70,7 +70,7 @@ Rectangle {
         id: told
         anchors {
             left: picture.right; leftMargin: (card.coded ? 1.5 : 0.25) * Theme.gap
-            right: parent.right; rightMargin: card.footed ? 0 : Theme.gap
+            right: parent.right; rightMargin: card.footed ? card.pad : Theme.gap
             verticalCenter: parent.verticalCenter
         }
         spacing: 0.2 * Theme.gap
