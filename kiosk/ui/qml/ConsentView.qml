@@ -63,9 +63,12 @@ PageFrame {
     other: words["consent-decline"]
     way.name: "agree"
     way.even: true
-    way.follows: words["consent-agree-line"]
+    // It waits as the way on of a form does. The refusal never does, and is as large; both are filled at last.
+    quiet: consent.toGo !== ""
+    way.waits: consent.toGo !== ""
+    way.follows: consent.toGo || words["consent-agree-line"]
     way.otherFollows: words["consent-decline-line"]
-    way.reason: consent.toGo || way.follows
+    way.reason: way.follows
     way.otherName: "decline"
     onWent: consent.agree()
     onTurnedDown: consent.decline()
@@ -256,18 +259,6 @@ PageFrame {
                         x: boxes.inset
                         width: boxes.width - 2 * x
                         height: Math.ceil(letters.height)
-                        // How many are still to be ticked, at the end of its line if both have room there.
-                        PlainText {
-                            objectName: "consent-count"
-                            visible: text !== "" && heading.fontInfo.pixelSize >= view.heads && heading.contentWidth + implicitWidth + 2 * Theme.gap <= heading.width
-                            x: Theme.across(parent.width - width, width, parent.width)
-                            height: parent.height
-                            text: view.consent.toGo
-                            font { pixelSize: Theme.size(32); bold: true }
-                            color: Theme.sea
-                            verticalAlignment: Text.AlignVCenter
-                            Accessible.ignored: true
-                        }
                         text: view.words["consent-needed"]
                         font { pixelSize: view.heads; bold: true }
                         fontSizeMode: Text.HorizontalFit

@@ -160,7 +160,8 @@ FocusScope {
         x: Theme.across(ways.halved ? 0 : ways.width - width - (ways.beside ? go.width + Theme.gap : 0), width, ways.width)
         y: ways.level ? go.y : 0
         height: ways.even ? go.height : implicitHeight
-        quiet: !ways.even
+        // As two that are alike would both be filled, beside one that waits it has an edge alone.
+        quiet: !ways.even || ways.waits
         under: ways.lined ? ways.otherFollows : ""
         underSize: ways.lineSize
         underLines: ways.lineCount
