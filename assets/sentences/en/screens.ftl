@@ -36,13 +36,13 @@ consent-required = needed
 consent-optional = up to you
 consent-agreed = agreed
 consent-missing = Please tick this box if you want to take part.
-# Over the boxes that are needed.
+# Over the boxes that are needed, once all of them have a tick.
 consent-needed = Needed to take part
-# Below the words of consent-agree, as long as some of them have no tick.
+# In its place, as long as some of them have none.
 consent-to-go =
     { $number ->
-        [one] { $number } box to go
-       *[other] { $number } boxes to go
+        [one] To take part, tick the empty box
+       *[other] To take part, tick the { $number } boxes
     }
 # Told to those who cannot see it once all of them have one. It must favour neither answer.
 consent-ready = That is all that is needed. Now choose below.

@@ -37,13 +37,13 @@ consent-required = necesario
 consent-optional = como prefieras
 consent-agreed = de acuerdo
 consent-missing = Si quieres participar, marca esta casilla.
-# Over the boxes that are needed.
+# Over the boxes that are needed, once all of them have a tick.
 consent-needed = Necesario para participar
-# Below the words of consent-agree, as long as some of them have no tick.
+# In its place, as long as some of them have none.
 consent-to-go =
     { $number ->
-        [one] Falta { $number } casilla
-       *[other] Faltan { $number } casillas
+        [one] Para participar, marca la casilla vacía
+       *[other] Para participar, marca las { $number } casillas
     }
 # Told to those who cannot see it once all of them have one. It must favour neither answer.
 consent-ready = No hace falta nada más. Ahora elige abajo.

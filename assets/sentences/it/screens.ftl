@@ -37,13 +37,13 @@ consent-required = necessario
 consent-optional = come preferisci
 consent-agreed = d'accordo
 consent-missing = Se vuoi partecipare, spunta questa casella.
-# Over the boxes that are needed.
+# Over the boxes that are needed, once all of them have a tick.
 consent-needed = Serve per partecipare
-# Below the words of consent-agree, as long as some of them have no tick.
+# In its place, as long as some of them have none.
 consent-to-go =
     { $number ->
-        [one] Manca { $number } casella
-       *[other] Mancano { $number } caselle
+        [one] Per partecipare, spunta la casella vuota
+       *[other] Per partecipare, spunta le { $number } caselle
     }
 # Told to those who cannot see it once all of them have one. It must favour neither answer.
 consent-ready = È tutto ciò che serve. Ora scegli qui sotto.

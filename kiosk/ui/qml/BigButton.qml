@@ -110,7 +110,7 @@ Button {
         wrapMode: button.underLines > 1 ? Text.Wrap : Text.NoWrap
         horizontalAlignment: Text.AlignHCenter
         verticalAlignment: Text.AlignVCenter
-        color: button.waits ? Theme.faintInk : button.quiet ? Theme.ink : Theme.white
+        color: Theme.white
         Accessible.ignored: true
     }
     background: Rectangle {

@@ -63,12 +63,9 @@ PageFrame {
     other: words["consent-decline"]
     way.name: "agree"
     way.even: true
-    // It waits as the way on of a form does. The refusal never does, and is as large; both are filled at last.
-    quiet: consent.toGo !== ""
-    way.waits: consent.toGo !== ""
-    way.follows: consent.toGo || words["consent-agree-line"]
+    way.follows: words["consent-agree-line"]
     way.otherFollows: words["consent-decline-line"]
-    way.reason: way.follows
+    way.reason: consent.toGo || way.follows
     way.otherName: "decline"
     onWent: consent.agree()
     onTurnedDown: consent.decline()
@@ -259,7 +256,7 @@ PageFrame {
                         x: boxes.inset
                         width: boxes.width - 2 * x
                         height: Math.ceil(letters.height)
-                        text: view.words["consent-needed"]
+                        text: view.consent.toGo || view.words["consent-needed"]
                         font { pixelSize: view.heads; bold: true }
                         fontSizeMode: Text.HorizontalFit
                         minimumPixelSize: Theme.size(24)

@@ -160,8 +160,7 @@ FocusScope {
         x: Theme.across(ways.halved ? 0 : ways.width - width - (ways.beside ? go.width + Theme.gap : 0), width, ways.width)
         y: ways.level ? go.y : 0
         height: ways.even ? go.height : implicitHeight
-        // As two that are alike would both be filled, beside one that waits it has an edge alone.
-        quiet: !ways.even || ways.waits
+        quiet: !ways.even
         under: ways.lined ? ways.otherFollows : ""
         underSize: ways.lineSize
         underLines: ways.lineCount

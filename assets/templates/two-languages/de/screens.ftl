@@ -36,13 +36,13 @@ consent-required = nötig
 consent-optional = wie du möchtest
 consent-agreed = einverstanden
 consent-missing = Bitte kreuze das an, wenn du teilnehmen möchtest.
-# Over the boxes that are needed.
+# Over the boxes that are needed, once all of them have a tick.
 consent-needed = Nötig zur Teilnahme
-# Below the words of consent-agree, as long as some of them have no tick.
+# In its place, as long as some of them have none.
 consent-to-go =
     { $number ->
-        [one] Noch { $number } Kästchen
-       *[other] Noch { $number } Kästchen
+        [one] Kreuze zur Teilnahme das leere Kästchen an
+       *[other] Kreuze zur Teilnahme die { $number } Kästchen an
     }
 # Told to those who cannot see it once all of them have one. It must favour neither answer.
 consent-ready = Mehr ist nicht nötig. Wähle jetzt unten.
