@@ -138,7 +138,7 @@ Window {
             id: aboutPage
             name: "about"
             sourceComponent: AboutView {
-                accompanied: layout.accompanied
+                Binding on accompanied { when: aboutPage.follows; value: layout.accompanied; restoreMode: Binding.RestoreNone }
                 focus: true
                 about: root.about
                 attract: root.attract
@@ -153,7 +153,7 @@ Window {
             id: consentPage
             name: "consent"
             sourceComponent: ConsentView {
-                accompanied: layout.accompanied
+                Binding on accompanied { when: consentPage.follows; value: layout.accompanied; restoreMode: Binding.RestoreNone }
                 focus: true
                 consent: root.consent
                 kiosk: root.kiosk
@@ -164,7 +164,7 @@ Window {
             id: agePage
             name: "age"
             sourceComponent: AgeView {
-                accompanied: layout.accompanied
+                Binding on accompanied { when: agePage.follows; value: layout.accompanied; restoreMode: Binding.RestoreNone }
                 focus: true
                 age: root.age
                 kiosk: root.kiosk
@@ -251,7 +251,7 @@ Window {
             id: debriefPage
             name: "debrief"
             sourceComponent: DebriefView {
-                accompanied: layout.accompanied
+                Binding on accompanied { when: debriefPage.follows; value: layout.accompanied; restoreMode: Binding.RestoreNone }
                 focus: true
                 debrief: root.debrief
                 labName: root.labName

@@ -38,8 +38,9 @@ class DebriefScreen(PageScreen):
 
     def set_language(self, catalogue: Catalogue) -> None:
         """Say in this language what the code is for."""
-        self._catalogue = catalogue
-        self.given.emit()
+        if catalogue is not self._catalogue:
+            self._catalogue = catalogue
+            self.given.emit()
 
     def give_contact(self, contact: str) -> None:
         """Tell whom to write to."""
@@ -62,9 +63,10 @@ class DebriefScreen(PageScreen):
 
     def clear(self) -> None:
         """Show no page and no code."""
-        self._code = self._contact = self._summary = ""
-        self._returns = False
-        self.given.emit()
+        if self._code or self._contact or self._summary or self._returns:
+            self._code = self._contact = self._summary = ""
+            self._returns = False
+            self.given.emit()
         super().clear()
 
     @property

@@ -53,8 +53,10 @@ class PageScreen(ReadingScreen):
 
     def clear(self) -> None:
         """Show nothing."""
-        self._page = None
-        self.changed.emit()
+        # What is clear already is not laid out once more.
+        if self._page is not None:
+            self._page = None
+            self.changed.emit()
 
     @Property(str, notify=changed)
     def title(self) -> str:
