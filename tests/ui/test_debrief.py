@@ -271,7 +271,7 @@ def test_the_helper_says_goodbye_in_large_letters_with_no_sentence_broken_that_h
     assert lies_in(words, "Bubble")
     assert words.property("lineCount") == (2 if width > height else 1)
     assert words.property("font").pixelSize() >= (40 if width > height else 48)
-    # It is told as a whole.
+    # A screen reader says both sentences together.
     assert described(words)[1] == " ".join(sentences)
 
 
@@ -298,6 +298,13 @@ def shown_at(booth: Booth, qtbot: QtBot, screen: str, width: int, height: int) -
     qtbot.waitUntil(lambda: window.contentItem().width() == width)
     booth.settle()
     lay_out(window)
+
+
+def show_debriefing(booth: Booth, qtbot: QtBot, language: str, width: int, height: int) -> None:
+    """Show the debriefing of the study with a code, whose letters are wide, in a window of this size."""
+    booth.app.screens.debrief.show(Information.of(ASSETS / "consent" / "study", language).debrief)
+    booth.app.screens.debrief.give_code("WWWWW-WWWWW")
+    shown_at(booth, qtbot, "debrief", width, height)
 
 
 def texts(booth: Booth) -> dict[str, QQuickItem]:
@@ -436,9 +443,7 @@ def test_the_shipped_debriefing_is_about_its_two_versions_drawn_with_cards_of_th
 
 
 def test_the_debriefing_on_a_wide_screen_has_letters_of_three_sizes(booth: Booth, qtbot: QtBot) -> None:
-    booth.app.screens.debrief.show(Information.of(ASSETS / "consent" / "study", "en").debrief)
-    booth.app.screens.debrief.give_code("WWWWW-WWWWW")
-    shown_at(booth, qtbot, "debrief", 1920, 1080)
+    show_debriefing(booth, qtbot, "en", 1920, 1080)
     shown = [item for item in items(booth.app.window.contentItem()) if lies_in(item, "DebriefPoints", "TakeHomeCard")]
     letters = [item for item in shown if item.inherits("QQuickText") and item.property("text")]
     assert {item.property("font").pixelSize() for item in letters} == {34, 42, 56}
@@ -465,9 +470,7 @@ def test_the_white_around_the_qr_code_keeps_clear_of_the_edges_of_its_strip(
 def test_on_a_wide_page_the_code_stands_beside_the_way_on_and_leaves_the_height_to_the_cards(
     booth: Booth, qtbot: QtBot, language: str, width: int, height: int
 ) -> None:
-    booth.app.screens.debrief.show(Information.of(ASSETS / "consent" / "study", language).debrief)
-    booth.app.screens.debrief.give_code("WWWWW-WWWWW")
-    shown_at(booth, qtbot, "debrief", width, height)
+    show_debriefing(booth, qtbot, language, width, height)
     (strip,), way = parts(booth, "TakeHomeCard"), bounds(booth.item("continue"))
     assert strip.bottom() == pytest.approx(way.bottom(), abs=1)
     assert strip.left() == pytest.approx(bounds(booth.item("page-title")).left(), abs=1)
@@ -485,9 +488,7 @@ def test_on_a_wide_page_the_code_stands_beside_the_way_on_and_leaves_the_height_
 def test_the_sign_on_a_card_leaves_the_upper_half_of_its_picture_free(
     booth: Booth, qtbot: QtBot, width: int, height: int
 ) -> None:
-    booth.app.screens.debrief.show(Information.of(ASSETS / "consent" / "study", "en").debrief)
-    booth.app.screens.debrief.give_code("WWWWW-WWWWW")
-    shown_at(booth, qtbot, "debrief", width, height)
+    show_debriefing(booth, qtbot, "en", width, height)
     signs = [sign for sign in kinds(booth, "Sign") if lies_in(sign, "PointDrawing")]
     pictures = faces(booth, behind=False)
     assert len(signs) == len(pictures) == 2
@@ -501,9 +502,7 @@ def test_the_sign_on_a_card_leaves_the_upper_half_of_its_picture_free(
 def test_all_parts_of_the_debriefing_are_as_far_apart_as_each_other(
     booth: Booth, qtbot: QtBot, language: str, width: int, height: int
 ) -> None:
-    booth.app.screens.debrief.show(Information.of(ASSETS / "consent" / "study", language).debrief)
-    booth.app.screens.debrief.give_code("WWWWW-WWWWW")
-    shown_at(booth, qtbot, "debrief", width, height)
+    show_debriefing(booth, qtbot, language, width, height)
     lead, card, _, *lines = parts(booth, "PointCard")
     (strip,) = parts(booth, "TakeHomeCard")
     title, way = bounds(booth.item("page-title")), bounds(booth.item("continue"))

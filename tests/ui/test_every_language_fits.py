@@ -740,14 +740,21 @@ def test_statements_of_an_upright_page_are_clear_of_their_points_with_texts_of_a
         screens.kiosk.set_text_size(TextSize.NORMAL)
 
 
+def ratings_in(kiosk: tuple[Window, StudyConfig], layout: Layout, language: str) -> Window:
+    """Return the window with a page of four ratings in this layout and language; the avatar has left the screen."""
+    window, study = kiosk
+    assert list(shown_in(kiosk, layout, ("four ratings",))) == ["four ratings"]
+    window.screens.set_language(next(plan for plan in study.plans if plan.language == language).catalogue)
+    window.screens.avatar.leave(away=True)
+    return window
+
+
 @pytest.mark.parametrize("language", SHIPPED)
 def test_cards_of_an_upright_page_of_ratings_stay_as_they_are_when_they_are_pointed_out(
     kiosk: tuple[Window, StudyConfig], language: str
 ) -> None:
-    window, ground = kiosk[0], kiosk[0].shown.contentItem()
-    assert list(shown_in(kiosk, Layout(1080, 1920), ("four ratings",))) == ["four ratings"]
-    window.screens.set_language(next(plan for plan in kiosk[1].plans if plan.language == language).catalogue)
-    window.screens.avatar.leave(away=True)
+    window = ratings_in(kiosk, Layout(1080, 1920), language)
+    ground = window.shown.contentItem()
 
     def places(items: tuple[Item, ...]) -> list[QRectF]:
         lay_out(window.shown)
@@ -852,10 +859,8 @@ def test_a_page_with_fewer_ratings_has_the_first_cards_of_the_full_ones_and_leav
 def test_scales_of_a_wide_page_stay_where_they_are_when_their_questions_are_pointed_out(
     kiosk: tuple[Window, StudyConfig], language: str
 ) -> None:
-    window, ground = kiosk[0], kiosk[0].shown.contentItem()
-    assert list(shown_in(kiosk, Layout(1920, 1080), ("four ratings",))) == ["four ratings"]
-    window.screens.set_language(next(plan for plan in kiosk[1].plans if plan.language == language).catalogue)
-    window.screens.avatar.leave(away=True)
+    window = ratings_in(kiosk, Layout(1920, 1080), language)
+    ground = window.shown.contentItem()
 
     def depths(items: tuple[Item, ...]) -> list[float]:
         lay_out(window.shown)
@@ -879,10 +884,8 @@ def test_scales_of_a_wide_page_stay_where_they_are_when_their_questions_are_poin
 def test_the_title_of_an_upright_page_of_ratings_keeps_its_line_and_the_page_needs_no_scrolling(
     kiosk: tuple[Window, StudyConfig], size: TextSize, language: str
 ) -> None:
-    window, ground = kiosk[0], kiosk[0].shown.contentItem()
-    assert list(shown_in(kiosk, Layout(1080, 1920), ("four ratings",))) == ["four ratings"]
-    window.screens.set_language(next(plan for plan in kiosk[1].plans if plan.language == language).catalogue)
-    window.screens.avatar.leave(away=True)
+    window = ratings_in(kiosk, Layout(1080, 1920), language)
+    ground = window.shown.contentItem()
     try:
         window.screens.kiosk.set_text_size(size)
         window.screens.form.show(SIXTEEN[:4], 2, 5, (), ASKED["social-intelligence"].title)

@@ -28,9 +28,12 @@ Item {
 
     // How large headings and texts of the cards are, and their drawings: the first that has room. Large drawings are better
     // than larger letters, and so are headings of one line and texts of few.
-    readonly property var found: steps.length === 0 ? undefined
-        : [[1, 3, 176], [2, 3, 176], [2, 4, 176], [1, 9, 0], [2, 9, 0]].map(([head, body, side]) => trials().find(trial => trial.side >= side * Theme.unit
-            && headLines(trial) <= head && bodyLines(trial) <= body && least(trial) <= room - foot)).find(trial => trial !== undefined)
+    readonly property var found: steps.length === 0 ? undefined : chosen()
+    function chosen(): var {
+        const held = trials().filter(trial => least(trial) <= room - foot)
+        return [[1, 3, 176], [2, 3, 176], [2, 4, 176], [1, 9, 0], [2, 9, 0]].map(([head, body, side]) => held.find(trial =>
+            trial.side >= side * Theme.unit && headLines(trial) <= head && bodyLines(trial) <= body)).find(trial => trial !== undefined)
+    }
     function trials(): var {
         const all = []
         // Large letters of a small size are as easy to read as small letters of a large one.
