@@ -16,7 +16,7 @@ from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.ui.simulated_visitor import lay_out
 from tests.samples import CATALOGUES, ENGLISH
 from tests.ui.conftest import Booth
-from tests.ui.looking import appearance, contrast, items, place, texts
+from tests.ui.looking import appearance, items, painted, place, texts
 
 GERMAN = ASSETS / "templates" / "two-languages"
 WORDS = CATALOGUES | {"de": Catalogue(GERMAN / "de"), "ar": ENGLISH}
@@ -155,15 +155,46 @@ def test_a_field_for_a_number_looks_like_a_field_and_not_like_an_answer(
     inside = picture.pixelColor(middle.x(), place(field).top() + 12)
     assert inside != ground
     (hint,) = [text for text in texts(field) if text.property("text")]
-    caret, keys = (item for item in items(field) if item.objectName() in {"caret", "keys-sign"})
-    assert contrast(picture.pixelColor(place(caret).center()), inside) >= 3
-    # The cursor is before the words, and the sign of the keys after them, at the end.
-    start, end = edges(caret).center().x(), edges(keys).center().x()
-    words = edges(hint).center().x()
-    assert (start < words < end) if language == "en" else (start > words > end)
+    (keys,) = (item for item in items(field) if item.objectName() == "keys-sign")
+    # The words are at the edge where reading begins, and the sign of the keys is at the other.
+    box, words, sign = edges(field), edges(hint), edges(keys)
+    before, after = words.left() - box.left(), box.right() - sign.right()
+    if language == "ar":
+        before, after = box.right() - words.right(), sign.left() - box.left()
+    assert before == 36
+    # The letters begin there, too.
+    drawn = [
+        x
+        for x in range(round(words.left()), round(words.right()))
+        if any(picture.pixelColor(x, y) != inside for y in range(middle.y() - 20, middle.y() + 20))
+    ]
+    assert (drawn[0] - words.left() if language == "en" else words.right() - drawn[-1]) <= 8
+    assert after == pytest.approx(box.bottom() - sign.bottom(), abs=1)
+    assert not sign.intersects(words)
     booth.app.screens.form.draft("age", "30")
     field.setProperty("text", "30")
     lay_out(booth.app.window)
-    assert not caret.isVisible()
     assert not keys.isVisible()
     field.setProperty("text", "")
+
+
+@pytest.mark.parametrize("language", ["en", "es", "ar"])
+def test_on_an_upright_page_a_number_has_a_field_like_the_tiles_of_short_answers(
+    booth: Booth, qtbot: QtBot, language: str
+) -> None:
+    (options,) = ask(booth, qtbot, UPRIGHT, AGE, GENDER, language=language)
+    field = edges(booth.item("number-age"))
+    assert [len(row) for row in rows(options)] == [2, 2]
+    # It stands below its question, as high as a tile and as wide as two.
+    tiles = edges(options[0]).united(edges(options[1]))
+    assert (field.left(), field.right()) == pytest.approx((tiles.left(), tiles.right()), abs=3)
+    assert field.height() == pytest.approx(options[0].height(), abs=1)
+    question = next(text for text in texts(booth.item("item-age")) if text.property("font").bold())
+    assert painted(question).bottom() < field.top()
+    # Once it has a number, plus and minus stand beside it.
+    booth.item("number-age").setProperty("text", "30")
+    lay_out(booth.app.window)
+    less = edges(booth.item("less-age"))
+    assert not less.intersects(edges(booth.item("number-age")))
+    assert tiles.adjusted(-3, 0, 3, 0).left() <= less.left() < less.right() <= tiles.right() + 3
+    booth.item("number-age").setProperty("text", "")

@@ -163,7 +163,7 @@ form-range = from { $lowest } to { $highest }
 form-none = Nothing is chosen yet
 form-touch = Touch the line.
 form-type = Tap here to type
-form-number = Type here
+form-number = Tap to enter
 form-less = One less
 form-more = One more
 # Beside the helper's back, while visitors rate it.

@@ -164,7 +164,7 @@ form-range = de { $lowest } a { $highest }
 form-none = Aún no se ha elegido nada
 form-touch = Toca la línea.
 form-type = Toca aquí para escribir
-form-number = Escribe aquí
+form-number = Toca aquí
 form-less = Uno menos
 form-more = Uno más
 # Beside the helper's back, while visitors rate it.

@@ -168,7 +168,7 @@ form-range = da { $lowest } a { $highest }
 form-none = Non è ancora scelto nulla
 form-touch = Tocca la linea.
 form-type = Tocca qui per scrivere
-form-number = Scrivi qui
+form-number = Tocca qui
 form-less = Uno in meno
 form-more = Uno in più
 # Beside the helper's back, while visitors rate it.

@@ -39,6 +39,8 @@ Item {
     // Whether a number stands beside its text, at the end of the card, and what it may be in the question's line.
     readonly property bool inline: questions.inline(item)
     readonly property bool ranged: questions.ranged(item)
+    // Whether it has a field below its text that is as wide as the card.
+    readonly property bool below: questions.below(item)
     // Whether its options stand in columns.
     readonly property bool columned: questions.columns !== null
     // How it is laid out where the page has room for that; else null.
@@ -243,7 +245,7 @@ Item {
                 x: Theme.across(0, width, asked.width)
                 y: box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.inset + box.lowered
                 width: box.beside && !box.crowned ? box.rows.textWidth : box.inline ? asked.width - box.questions.fieldWidth : asked.width
-                spacing: box.inline || box.rows.table ? 0 : box.page.solo ? 12 * Theme.unit : box.page.ample ? 4 * Theme.unit : box.usualSpacing
+                spacing: box.inline || box.below && !box.ranged || box.rows.table ? 0 : box.page.solo ? 12 * Theme.unit : box.page.ample ? 4 * Theme.unit : box.usualSpacing
                 Balanced {
                     id: question
                     width: parent.width
@@ -259,7 +261,7 @@ Item {
                 // What a number may be, below the question where the number stands beside that.
                 PlainText {
                     width: parent.width
-                    visible: box.inline && !box.ranged && text !== ""
+                    visible: (box.inline || box.below) && !box.ranged && text !== ""
                     text: box.item.range ?? ""
                     horizontalAlignment: Text.AlignLeft
                     font.pixelSize: box.page.large || box.columned || box.roomy !== null ? Theme.size(32) : Theme.small
@@ -280,7 +282,7 @@ Item {
             }
             // The same in the question's line.
             PlainText {
-                visible: box.inline && box.ranged
+                visible: (box.inline || box.below) && box.ranged
                 x: Theme.across(question.contentWidth + 1.25 * Theme.gap, width, asked.width)
                 y: told.y + question.y + question.baselineOffset - baselineOffset
                 text: box.item.range ?? ""
@@ -451,6 +453,7 @@ Item {
             room: content.width
             tall: box.questions.fieldHeight
             inline: box.inline
+            filling: box.below
             keyed: box.keyed
             item: box.item.id
             form: box.form

@@ -22,11 +22,13 @@ Row {
     required property string hint       // what there is to do, while it is empty
     // Whether it stands beside its question, which then says what it may be.
     property bool inline: false
+    // Whether it takes all of the width below its question, which then says so as well.
+    property bool filling: false
     // Whether the keys on the screen type into it.
     property bool keyed: false
     // Beside its question there is nothing to step yet while it is empty, and those keys are one way to enter it: the
     // field has the room of the buttons then.
-    readonly property bool bare: inline && (keyed || field.length === 0)
+    readonly property bool bare: (inline || filling) && (keyed || field.length === 0)
     property alias text: field.text
     signal typed(string text)
     signal done()
@@ -116,14 +118,17 @@ Row {
         form: number.form
         minus: number.minus
         // As wide as the longest number; digits of another script may be wider still.
-        settled: Math.max(Math.max(260, 228 * Theme.textSize) * Theme.unit, Math.max(widest.advanceWidth, contentWidth) + leftPadding + rightPadding + 8 * Theme.unit)
+        settled: number.filling ? number.room - 2 * (number.stepSize + number.spacing)
+            : Math.max(Math.max(260, 228 * Theme.textSize) * Theme.unit, Math.max(widest.advanceWidth, contentWidth) + leftPadding + rightPadding + 8 * Theme.unit)
         width: settled + (number.bare ? 2 * (number.stepSize + number.spacing) : 0)
         height: number.tall
         topPadding: 2 * Theme.unit
         bottomPadding: 2 * Theme.unit
         font { pixelSize: Theme.size(50); bold: true }
         verticalAlignment: TextInput.AlignVCenter
-        horizontalAlignment: TextInput.AlignHCenter
+        leftPadding: (number.inline || number.filling ? 36 : 24) * Theme.unit
+        rightPadding: leftPadding
+        horizontalAlignment: number.inline || number.filling ? TextInput.AlignLeft : TextInput.AlignHCenter
         longest: number.widest.length
         validator: RegularExpressionValidator { regularExpression: new RegExp(number.pattern) }
         onTextChanged: number.typed(text)
@@ -135,7 +140,7 @@ Row {
     }
     PlainText {
         id: asked
-        visible: !number.inline
+        visible: !number.inline && !number.filling
         anchors.verticalCenter: parent.verticalCenter
         leftPadding: 0.5 * Theme.gap
         width: Math.min(implicitWidth, number.room - 2 * number.stepSize - field.width - 3 * number.spacing)

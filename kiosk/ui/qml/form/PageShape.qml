@@ -69,7 +69,7 @@ QtObject {
     // How far cards are from each other at least.
     readonly property real gap: (dense || tight ? 8 : 12) * Theme.unit
     // How far the content of a card is from its left and right edges, and what that leaves of its width.
-    readonly property real inset: solo && upright ? 28 * Theme.unit : solo || brief ? 40 * Theme.unit : (easy ? 1.5 : 1.2) * Theme.gap
+    readonly property real inset: solo && upright ? 28 * Theme.unit : brief && upright ? 28 * Theme.unit : solo || brief ? 40 * Theme.unit : (easy ? 1.5 : 1.2) * Theme.gap
     readonly property real inner: brief && alone ? column : column - 2 * inset
 
     function scales(item: var): bool {

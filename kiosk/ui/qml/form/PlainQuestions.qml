@@ -57,6 +57,10 @@ QtObject {
         return roomy !== null ? larger.inline(item) : (page.upright || page.calm) && !page.alone && !page.largeText && item.kind === "integer" && !item.exempts
             && widths.bold(item.text, Theme.size(page.easy ? 37 : 38)) + fieldWidth <= page.inner
     }
+    // Whether it stands below its question, in a field as wide as the card.
+    function below(item: var): bool {
+        return roomy !== null && larger.below(item)
+    }
     // Whether what the number may be stands in the question's line.
     function ranged(item: var): bool {
         return item.kind === "integer" && (roomy !== null ? larger.rangeFits(item) : columns !== null && rangeFits(item))

@@ -11,7 +11,7 @@ QtObject {
     readonly property bool sole: page.alone
     // How large the questions are: as large as leaves each in as few lines as small letters do, and clearly smaller than the
     // title. One that is alone may have two lines on an upright page.
-    readonly property real asking: (sole ? [54, 52, 50, 48, 46, 44] : [44, 42, 40, 38]).map(Theme.size)
+    readonly property real asking: (sole ? [54, 52, 50, 48, 46, 44] : page.upright ? [48, 46, 44, 42, 40, 38] : [44, 42, 40, 38]).map(Theme.size)
         .find(size => page.items.every(item => widths.lines(item.text, size, page.inner) <= fewest(item))) ?? Theme.size(38)
     function fewest(item: var): int {
         return Math.max(sole && page.upright ? 2 : 1, widths.lines(item.text, Theme.size(38), page.inner))
@@ -25,10 +25,12 @@ QtObject {
     // its options; and in how many columns options stand. Null where all of that has no room.
     readonly property var found: page.brief ? search() : null
 
-    // Options stand below each other where a page has the height for that, or else in as many columns as leave no hole in
-    // the last row, or else in columns that may leave one.
-    readonly property var ways: sole || page.upright ? ["list", "even", "two", "three"] : ["even", "two", "three"]
-    readonly property var steps: [[112, 28, 40, 26], [104, 24, 36, 24], [100, 22, 32, 22], [96, 20, 30, 20], [92, 20, 26, 18], [88, 18, 24, 16], [84, 16, 20, 14], [78, 14, 18, 12], [72, 14, 16, 10]]
+    // Few words of two questions on an upright page are large tiles in two columns. Otherwise options stand below each other where a
+    // page has the height for that, or else in as many columns as leave no hole in the last row, or else in columns that may
+    // leave one.
+    readonly property bool tiled: page.upright && !sole
+    readonly property var ways: [...(tiled ? ["tiles"] : []), ...(sole || page.upright ? ["list"] : []), "even", "two", "three"]
+    readonly property var steps: [...(tiled ? [[140, 26, 48, 32], [126, 26, 44, 28]] : []), [112, 28, 40, 26], [104, 24, 36, 24], [100, 22, 32, 22], [96, 20, 30, 20], [92, 20, 26, 18], [88, 18, 24, 16], [84, 16, 20, 14], [78, 14, 18, 12], [72, 14, 16, 10]]
     function search(): var {
         for (const sizes of [page.upright ? [44, 42, 40, 38, 36] : [40, 38, 36], [34, 32, 30]])
             for (const way of ways)
@@ -36,7 +38,7 @@ QtObject {
                     for (const letters of sizes) {
                         const tried = {way, size: Theme.size(letters), height: height * Theme.unit, gutter: gutter * Theme.unit,
                             margin: margin * Theme.unit, spacing: (spacing + (sole ? 8 : 0)) * Theme.unit}
-                        const spare = height < 84 && way === "list" ? -1 : room - taken(tried)
+                        const spare = height < 84 && way === "list" || way === "tiles" && !tiles(tried) ? -1 : room - taken(tried)
                         if (spare >= 0)
                             return widened(tried, spare)
                     }
@@ -48,15 +50,15 @@ QtObject {
     // The same with what the page has left: options become a little higher, and the margins of cards wider.
     function widened(layout: var, spare: real): var {
         const cards = page.seen().length
-        const rows = page.seen().reduce((sum, item) => sum + rowsOf(item, layout), 0)
-        const higher = Math.floor(Math.min((sole && rows < 4 ? 36 : page.upright ? 26 : 14) * Theme.unit, 0.55 * spare / Math.max(1, rows)))
+        const rows = page.seen().reduce((sum, item) => sum + (item.kind !== "integer" ? rowsOf(item, layout) : inline(item) ? 0 : 1), 0)
+        const higher = Math.floor(Math.min((sole && rows < 4 ? 36 : layout.way === "tiles" ? 56 : page.upright ? 26 : 14) * Theme.unit, (layout.way === "tiles" ? 0.6 : 0.55) * spare / Math.max(1, rows)))
         const left = spare - rows * higher
         if (sole) {
             // Columns keep their width, by which they were chosen.
             const further = layout.way !== "list" ? 0 : Math.floor(Math.min((page.upright ? 10 : 4) * Theme.unit, 0.6 * left / Math.max(1, rows)))
             return Object.assign(layout, {height: layout.height + higher, gutter: layout.gutter + further})
         }
-        const wider = Math.floor(Math.min((page.upright ? 32 : 16) * Theme.unit, left / Math.max(1, 4 * cards)))
+        const wider = Math.floor(Math.min((layout.way === "tiles" ? 24 : page.upright ? 32 : 16) * Theme.unit, left / Math.max(1, 4 * cards)))
         return Object.assign(layout, {height: layout.height + higher, margin: layout.margin + wider, spacing: layout.spacing + Math.floor(wider / 2)})
     }
     // How high the page is then. Words that something is missing are part of it.
@@ -66,8 +68,8 @@ QtObject {
             const said = widths.lines(item.text, asking, page.inner) * widths.leading * asking
             const missed = page.form.missing.includes(item.id) ? widths.leading * Theme.small + layout.spacing : 0
             const answers = item.kind === "integer" ? layout.height : rowsOf(item, layout) * (highest(item, layout) + layout.gutter) - layout.gutter
-            const inside = inline(item) ? Math.max(answers, said + missed + (rangeFits(item) ? 0 : widths.leading * Theme.size(32)))
-                : said + missed + layout.spacing + answers
+            const asked = said + missed + (item.kind !== "integer" || rangeFits(item) ? 0 : widths.leading * Theme.size(32))
+            const inside = inline(item) ? Math.max(answers, asked) : asked + layout.spacing + answers
             return sum + inside + (sole ? 0 : 2 * layout.margin)
         }, (seen.length - 1) * apart(layout))
     }
@@ -75,26 +77,32 @@ QtObject {
     function apart(layout: var): real {
         return layout.gutter + 6 * Theme.unit
     }
-    // Whether a number stands beside its question, and whether what it may be stands in the question's line.
+    // Whether a number stands beside its question, or below it in a field as wide as the card, as on an upright page. And
+    // whether what it may be stands in the question's line.
     readonly property real fieldWidth: 500 * Theme.unit
+    function below(item: var): bool {
+        return page.upright && item.kind === "integer"
+    }
     function inline(item: var): bool {
-        return item.kind === "integer" && widths.bold(item.text, asking) + fieldWidth + Theme.gap <= page.inner
+        return item.kind === "integer" && !page.upright && widths.bold(item.text, asking) + fieldWidth + Theme.gap <= page.inner
     }
     function rangeFits(item: var): bool {
-        return widths.bold(item.text, asking) + widths.slack * widths.plain(item.range, Theme.size(32)) + 2.25 * Theme.gap <= page.inner - fieldWidth
+        return widths.bold(item.text, asking) + widths.slack * widths.plain(item.range, Theme.size(32)) + 2.25 * Theme.gap <= page.inner - (below(item) ? 0 : fieldWidth)
     }
 
     // How large the ring before an option's words is, and all that is beside the words.
-    readonly property real ring: 46 * Theme.unit
-    readonly property real beforeRing: 28 * Theme.unit
-    readonly property real afterRing: 20 * Theme.unit
-    readonly property real afterWords: 24 * Theme.unit
+    readonly property real ring: (tiled ? 44 : 46) * Theme.unit
+    readonly property real beforeRing: (tiled ? 22 : 28) * Theme.unit
+    readonly property real afterRing: (tiled ? 16 : 20) * Theme.unit
+    readonly property real afterWords: (tiled ? 18 : 24) * Theme.unit
     readonly property real around: ring + beforeRing + afterRing + afterWords + 2 * Theme.unit
 
     function columnsOf(item: var, layout: var): int {
         const all = item.options.length
         const fits = (columns, most) => columns <= all && item.options.every(option => linesOf(option, columns, layout) <= most)
         switch (layout.way) {
+        case "tiles":
+            return 2
         case "list":
             return 1
         case "even":
@@ -104,6 +112,11 @@ QtObject {
         default:
             return fits(3, 2) ? 3 : fits(2, 2) ? 2 : 1
         }
+    }
+    // Whether all have room in two columns with one line each, and none is alone in its row.
+    function tiles(layout: var): bool {
+        return page.items.every(item => item.kind === "integer" || item.options.length % 2 === 0 && mostLines(item, layout) === 1)
+            && layout.size >= Theme.size(38) && layout.height >= 126 * Theme.unit
     }
     function rowsOf(item: var, layout: var): int {
         return item.kind === "integer" ? 0 : Math.ceil(item.options.length / columnsOf(item, layout))

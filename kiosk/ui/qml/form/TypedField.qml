@@ -1,4 +1,5 @@
 // A line to type in, with keys of a keyboard or with those on the screen.
+pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Controls.Basic
 import Recollect
@@ -78,39 +79,28 @@ TextField {
         onActiveChanged: if (active) field.touched = true
     }
 
-    // A number's is a field by its cursor, before the words, and by keys with digits at its end.
-    Rectangle {
-        id: caret
-        objectName: "caret"
-        readonly property real beside: 12 * Theme.unit
-        anchors.verticalCenter: parent.verticalCenter
-        x: Theme.across((parent.width - prompt.after - width - beside - prompt.contentWidth) / 2, width, parent.width)
-        visible: field.digits && prompt.visible
-        width: 4 * Theme.unit
-        height: 1.2 * prompt.font.pixelSize
-        color: Theme.sea
-    }
+    // The field of a number shows that a tap brings keys with digits.
     Rectangle {
         id: keys
         objectName: "keys-sign"
         anchors.verticalCenter: parent.verticalCenter
         x: Theme.across(parent.width - width - (parent.height - height) / 2, width, parent.width)
         // A narrow field needs its width for the words.
-        visible: caret.visible && field.width >= 400 * Theme.unit
-        height: parent.height - 28 * Theme.unit
-        width: Math.min(height, 88 * Theme.unit)
+        visible: field.digits && prompt.visible && field.width >= 400 * Theme.unit
+        height: Math.min(parent.height - 28 * Theme.unit, 140 * Theme.unit)
+        width: height
         radius: 0.6 * Theme.radius
         color: Theme.touchable
         Grid {
             anchors.centerIn: parent
             columns: 3
-            spacing: 5 * Theme.unit
+            spacing: 0.05 * keys.height
             Repeater {
                 model: 9
                 Rectangle {
-                    width: 9 * Theme.unit
+                    width: 0.1 * keys.height
                     height: width
-                    radius: 2 * Theme.unit
+                    radius: 0.2 * width
                     color: Theme.sea
                 }
             }
@@ -118,19 +108,18 @@ TextField {
     }
     Text {
         id: prompt
-        readonly property real before: field.digits ? caret.width + caret.beside : 0
-        readonly property real after: field.digits && field.width >= 400 * Theme.unit ? keys.width : 0
-        readonly property real margin: (field.digits ? 0.6 : 1) * field.leftPadding
+        readonly property real after: field.digits && field.width >= 400 * Theme.unit ? field.height - (field.height - keys.height) / 2 : 0
+        readonly property real margin: field.leftPadding
         anchors {
             fill: parent
-            leftMargin: margin + (Theme.mirrored ? after : before)
-            rightMargin: margin + (Theme.mirrored ? before : after)
+            leftMargin: margin
+            rightMargin: margin + after
         }
-        // A number's stands in the middle, where the cursor would cross it.
+        // A number's is large, and the cursor would cross it.
         visible: field.length === 0 && field.preeditText === "" && !(field.digits && field.activeFocus)
         textFormat: Text.PlainText
         text: field.hint
-        horizontalAlignment: field.digits ? Text.AlignHCenter : undefined
+        horizontalAlignment: field.digits ? field.horizontalAlignment : undefined
         font.pixelSize: field.digits ? Math.min(Theme.size(Theme.upright ? 40 : 38), 0.47 * field.height) : Theme.body
         fontSizeMode: Text.HorizontalFit
         minimumPixelSize: Theme.size(24)
