@@ -8,6 +8,7 @@ from itertools import pairwise
 import pytest
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QAccessible, QAccessibleInterface
+from PySide6.QtQml import QQmlProperty
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 from pytestqt.qtbot import QtBot
 
@@ -79,32 +80,88 @@ def test_nothing_is_ticked_beforehand_and_the_required_boxes_say_so(booth: Booth
         if page is SHORT and not purpose.required:
             note = "Up to you"
         assert not box.property("on")
-        # The heading of a card says it for all boxes in it.
-        assert says(box, note) == (page is not SHORT or not purpose.required)
+        # Where a heading stands over the boxes, it says so for all of them.
+        assert says(box, note) == (page is not SHORT)
         told = QAccessible.queryAccessibleInterface(box)
         assert isinstance(told, QAccessibleInterface)
         assert told.text(QAccessible.Text.Description) == note
+    assert booth.sees("tag") == (page is SHORT)
 
 
 @pytest.mark.usefixtures("done")
 @pytest.mark.parametrize("language", ["en", "ar"])
 @pytest.mark.parametrize("size", [(1920, 1080), (1080, 1920)], ids=["wide", "upright"])
-def test_the_boxes_that_are_needed_share_a_card_with_a_heading_and_the_others_stand_below(
+def test_the_boxes_that_are_needed_stand_below_a_heading_and_the_others_below_a_word(
     booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
 ) -> None:
     window = show_short(booth, qtbot, language, size)
     lay_out(window)
-    card, heading = place(booth.item("consent-card")), place(booth.item("consent-needed"))
-    first, second, other = (place(booth.item(f"purpose-{purpose.id}")) for purpose in SHORT.purposes)
-    assert all(card.contains(each) for each in (heading, first, second))
-    assert heading.bottom() <= first.top()
-    assert first.bottom() < second.top()
-    assert other.top() - card.bottom() >= 12
-    # As far from the last box to the edge as at its sides, and all marks stand below each other.
-    assert card.bottom() - second.bottom() == pytest.approx(second.left() - card.left(), abs=3)
-    assert (other.left(), other.width()) == (card.left(), card.width())
-    marks = {round(place(booth.item(f"purpose-{name}").childItems()[-1].childItems()[0]).left()) for name in REQUIRED}
+    heading, first, second, tag, other = (
+        place(booth.item(name))
+        for name in ("consent-needed", "purpose-take_part", "purpose-store", "tag", "purpose-share")
+    )
+    assert says(booth.item("tag"), "Up to you")
+    for above, below in pairwise((heading, first, second, tag, other)):
+        assert above.bottom() <= below.top()
+    # It belongs to what is below it.
+    assert other.top() - tag.bottom() < tag.top() - second.bottom()
+    assert first.left() == second.left() == other.left()
+    assert first.width() == second.width() == other.width()
+    marks = {
+        round(place(booth.item(f"purpose-{purpose.id}").childItems()[-1].childItems()[0]).left())
+        for purpose in SHORT.purposes
+    }
     assert len(marks) == 1
+
+
+@pytest.mark.usefixtures("done")
+@pytest.mark.parametrize(
+    ("required", "heading"),
+    [
+        ((True, True, False), "To take part, tick the first 2"),
+        ((True, False, False), "To take part, tick the first box"),
+        ((True, True, True), "To take part, tick the 3 boxes"),
+        ((True,), "To take part, tick the box"),
+        ((False,), None),
+    ],
+)
+def test_the_heading_says_which_boxes_are_to_be_ticked(
+    booth: Booth, required: tuple[bool, ...], heading: str | None
+) -> None:
+    purposes = tuple(
+        Purpose(id=f"purpose_{at}", text="You may.", required=needed) for at, needed in enumerate(required)
+    )
+    booth.app.screens.consent.show(SHORT.model_copy(update={"purposes": purposes}))
+    booth.settle()
+    assert booth.sees("consent-needed") == (heading is not None)
+    assert booth.sees("tag") == (not all(required))
+    if heading is not None:
+        assert says(booth.item("consent-needed"), heading)
+
+
+@pytest.mark.usefixtures("done")
+@pytest.mark.parametrize("scale", [1.0, 1.15, 1.3])
+@pytest.mark.parametrize("sheet", SHEETS)
+@pytest.mark.parametrize("size", [(1920, 1080), (1080, 1920)], ids=["wide", "upright"])
+def test_the_button_for_all_of_the_text_stands_clear_of_every_word(
+    booth: Booth, qtbot: QtBot, size: tuple[int, int], sheet: str, scale: float
+) -> None:
+    booth.app.window.setProperty("textSize", scale)
+    window = show_short(booth, qtbot, sheet.rpartition("/")[2].removesuffix(".toml"), size)
+    booth.app.screens.consent.show(read_sheet(sheet))
+    booth.app.screens.kiosk.offer_back(offered=True)
+    booth.settle()
+    lay_out(window)
+    button = place(booth.item("read-more"))
+    others = [each for each in texts(window.contentItem()) if not lies_in(each, "BigButton")]
+    assert not [str(each.property("text")) for each in others if painted(each).intersects(button)]
+    points = [place(each) for each in texts(window.contentItem()) if lies_in(each, "SignedLine")]
+    if scale == 1:
+        # It belongs to the points, which stand for that text.
+        assert points[0].top() <= button.center().y() <= points[-1].bottom()
+        booth.click("read-more")
+        lay_out(window)
+        assert place(booth.item("read-more")).center().y() < points[0].top()
 
 
 @pytest.mark.usefixtures("done")
@@ -151,12 +208,11 @@ def under(booth: Booth, name: str) -> QQuickItem:
     return line
 
 
-def test_each_answer_says_what_follows_and_the_card_which_boxes_are_to_be_ticked(booth: Booth, done: Done) -> None:
+def test_each_answer_says_what_follows_and_the_heading_which_boxes_are_to_be_ticked(booth: Booth, done: Done) -> None:
     booth.app.screens.consent.show(SHORT)
-    heads = ["To take part, tick the 2 boxes", "To take part, tick the empty box", "Needed to take part"]
-    # A tick that is up to the visitor changes nothing.
-    ticked = [frozenset({"share"}), REQUIRED - {"store"}, REQUIRED]
-    for head, ticks in zip(heads, ticked, strict=True):
+    heads = ["To take part, tick the first 2", "All set. Now choose below."]
+    for ticks in (frozenset({"share"}), REQUIRED - {"store"}, REQUIRED):
+        head = heads[ticks >= REQUIRED]
         booth.app.screens.consent.show_ticks(ticks)
         lay_out(booth.app.window)
         shown = [text.property("text") for text in texts(booth.app.window.contentItem())]
@@ -165,7 +221,7 @@ def test_each_answer_says_what_follows_and_the_card_which_boxes_are_to_be_ticked
             assert under(booth, name).property("text") == follows
             told = QAccessible.queryAccessibleInterface(booth.item(name))
             assert isinstance(told, QAccessibleInterface)
-            # Those who cannot see the card hear at the answer what it still needs.
+            # Those who cannot see the heading hear at the answer what it still needs.
             waits = name == "agree" and ticks != REQUIRED
             assert told.text(QAccessible.Text.Description) == (head if waits else follows)
     booth.app.screens.consent.show_ticks(frozenset())
@@ -174,12 +230,19 @@ def test_each_answer_says_what_follows_and_the_card_which_boxes_are_to_be_ticked
 
 
 @pytest.mark.usefixtures("done")
-def test_the_card_has_a_strong_edge_until_its_boxes_are_ticked(booth: Booth) -> None:
+def test_what_is_to_be_ticked_has_a_strong_edge_until_it_is(booth: Booth) -> None:
     booth.app.screens.consent.show(SHORT)
-    for ticks, strong in ((frozenset({"share"}), 1), (REQUIRED - {"store"}, 1), (REQUIRED, 0), (frozenset[str](), 1)):
+    for ticks in (frozenset({"share"}), REQUIRED - {"store"}, REQUIRED, frozenset[str]()):
         booth.app.screens.consent.show_ticks(ticks)
         lay_out(booth.app.window)
-        assert booth.item("consent-due").opacity() == strong
+        edges = {
+            purpose.id: QQmlProperty.read(booth.item(f"purpose-{purpose.id}").property("background"), "border.width")
+            for purpose in SHORT.purposes
+        }
+        assert {name for name, width in edges.items() if width == max(edges.values())} == (
+            REQUIRED - ticks or {"share"}
+        )
+        assert {name for name, width in edges.items() if width == 0} == ticks
 
 
 def show_short(booth: Booth, qtbot: QtBot, language: str, size: tuple[int, int]) -> QQuickWindow:
@@ -249,7 +312,7 @@ def test_both_answers_have_room_around_their_words_and_are_clear_of_the_boxes(
         # The refusal is not hit on the way back.
         assert place(booth.item("back")).top() - both.bottom() >= 40
         lowest = max(place(text).bottom() for text in texts(window.contentItem()) if lies_in(text, "SignedLine"))
-        assert place(booth.item("consent-card")).top() - lowest >= 36
+        assert place(booth.item("consent-needed")).top() - lowest >= 36
 
 
 def test_what_is_missing_is_said_in_words_until_it_is_ticked(booth: Booth, done: Done) -> None:
@@ -296,11 +359,16 @@ def test_to_decline_looks_like_to_agree_before_and_after_the_boxes_are_ticked(
         return [appearance(booth.item(name), window.grabWindow()) for name in ("decline", "agree", "back")]
 
     before = looks()
+    booth.app.screens.consent.show_ticks(REQUIRED - {"store"} | {"share"})
+    assert looks() == before
     booth.app.screens.consent.show_ticks(REQUIRED)
     after = looks()
-    # Nothing about them changes but what they say.
-    assert before == after
+    assert before[0] == before[1]
     assert after[0] == after[1]
+    # Once all is ticked that has to be, both are dark at once; nothing else about them changes.
+    assert before[0][:2] == after[0][:2]
+    assert before[0][2:] == after[0][:1:-1]
+    assert before[2] == after[2]
     assert after[0][2] != after[2][2]
     booth.click("decline")
     assert done == ["declined"]
@@ -359,9 +427,7 @@ def test_larger_texts_make_no_letters_of_a_box_smaller_and_keep_the_card(
         assert booth.sees("consent-needed")
         assert not booth.sees("more")
         (pixels,) = {
-            text.property("font").pixelSize()
-            for text in texts(window.contentItem())
-            if lies_in(text, "TickBox") and text.objectName() != "tag"
+            text.property("font").pixelSize() for text in texts(window.contentItem()) if lies_in(text, "TickBox")
         }
         letters.append(pixels)
     # Letters are set on whole pixels.
@@ -385,8 +451,14 @@ def test_on_an_upright_screen_points_and_boxes_are_all_seen_at_once(
     # Larger texts do not cost the page its headings.
     assert booth.sees("consent-needed")
     if scale == 1:
-        read = [text for text in texts(window.contentItem()) if lies_in(text, "SignedLine", "TickBox")]
-        assert min(text.property("font").pixelSize() for text in read if text.objectName() != "tag") >= 36
+        shown = list(texts(window.contentItem()))
+        point, box = (
+            max(text.property("font").pixelSize() for text in shown if lies_in(text, kind))
+            for kind in ("SignedLine", "TickBox")
+        )
+        # What is to be ticked comes first, and what is read can be read from where one stands.
+        assert 32 <= point < box
+        assert box >= 36
 
 
 def test_a_keyboard_alone_decides(booth: Booth, done: Done) -> None:

@@ -36,16 +36,19 @@ consent-required = needed
 consent-optional = up to you
 consent-agreed = agreed
 consent-missing = Please tick this box if you want to take part.
-# Over the boxes that are needed, once all of them have a tick.
-consent-needed = Needed to take part
-# In its place, as long as some of them have none.
+# Over the boxes, as long as some that are needed have no tick: if all are needed, and if others follow.
 consent-to-go =
     { $number ->
-        [one] To take part, tick the empty box
+        [one] To take part, tick the box
        *[other] To take part, tick the { $number } boxes
     }
-# Told to those who cannot see it once all of them have one. It must favour neither answer.
-consent-ready = That is all that is needed. Now choose below.
+consent-first =
+    { $number ->
+        [one] To take part, tick the first box
+       *[other] To take part, tick the first { $number }
+    }
+# In its place, once all of them have one. It must favour neither answer.
+consent-ready = All set. Now choose below.
 consent-agree = I take part
 # What follows, below each answer. Both lines are about as long.
 consent-agree-line = Your data are stored.

@@ -37,16 +37,19 @@ consent-required = necesario
 consent-optional = como prefieras
 consent-agreed = de acuerdo
 consent-missing = Si quieres participar, marca esta casilla.
-# Over the boxes that are needed, once all of them have a tick.
-consent-needed = Necesario para participar
-# In its place, as long as some of them have none.
+# Over the boxes, as long as some that are needed have no tick: if all are needed, and if others follow.
 consent-to-go =
     { $number ->
-        [one] Para participar, marca la casilla vacía
+        [one] Para participar, marca la casilla
        *[other] Para participar, marca las { $number } casillas
     }
-# Told to those who cannot see it once all of them have one. It must favour neither answer.
-consent-ready = No hace falta nada más. Ahora elige abajo.
+consent-first =
+    { $number ->
+        [one] Para participar, marca la primera casilla
+       *[other] Para participar, marca las { $number } primeras
+    }
+# In its place, once all of them have one. It must favour neither answer.
+consent-ready = Listo. Ahora elige abajo.
 consent-agree = Participo
 # What follows, below each answer. Both lines are about as long.
 consent-agree-line = Guardamos tus datos.

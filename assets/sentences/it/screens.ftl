@@ -37,16 +37,19 @@ consent-required = necessario
 consent-optional = come preferisci
 consent-agreed = d'accordo
 consent-missing = Se vuoi partecipare, spunta questa casella.
-# Over the boxes that are needed, once all of them have a tick.
-consent-needed = Serve per partecipare
-# In its place, as long as some of them have none.
+# Over the boxes, as long as some that are needed have no tick: if all are needed, and if others follow.
 consent-to-go =
     { $number ->
-        [one] Per partecipare, spunta la casella vuota
+        [one] Per partecipare, spunta la casella
        *[other] Per partecipare, spunta le { $number } caselle
     }
-# Told to those who cannot see it once all of them have one. It must favour neither answer.
-consent-ready = È tutto ciò che serve. Ora scegli qui sotto.
+consent-first =
+    { $number ->
+        [one] Per partecipare, spunta la prima casella
+       *[other] Per partecipare, spunta le prime { $number }
+    }
+# In its place, once all of them have one. It must favour neither answer.
+consent-ready = Tutto qui. Ora scegli qui sotto.
 consent-agree = Partecipo
 # What follows, below each answer. Both lines are about as long.
 consent-agree-line = Conserviamo i tuoi dati.

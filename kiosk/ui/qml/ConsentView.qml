@@ -17,38 +17,36 @@ PageFrame {
     readonly property var read: aside === "" ? consent.points : consent.points.slice(0, -1)
 
     // The page has the largest letters with which points and boxes are all seen at once: in points, in boxes, how many gaps
-    // apart its groups are, and how many are in a box above and below its words. Whether it has the largest of all, and
-    // whether even the smallest are too large.
+    // are above and below the words of a box, and how many between boxes. Whether even the smallest are too large.
     readonly property bool upright: width < height
-    readonly property var sizes: upright ? [[36, 36, 1, 0.8], [36, 36, 0.7, 0.6], [36, 36, 0.6, 0.5], [36, 36, 0.4, 0.35], [36, 36, 0.4, 0.25], [34, 33, 0.6, 0.4], [34, 33, 0.4, 0.35], [32, 31, 0.4, 0.25], [31, 31, 0.4, 0.2], [30, 29, 0.4, 0.2]]
-        : [[34, 34, 0.9, 0.9], [32, 34, 0.9, 0.9], [32, 34, 0.9, 0.5], [32, 33, 0.6, 0.35], [31, 31, 0.6, 0.35], [31, 31, 0.4, 0.25], [29, 29, 0.4, 0.25]]
-    readonly property int fitting: short ? sizes.findIndex(([point, box, apart, inside]) => tall(point, box, apart, inside) <= pane.room) : -1
-    readonly property real heads: Theme.size(upright ? 40 : 38)
-    // The heading of a box that is up to the visitor, and how far above it. Large texts need the room themselves.
-    readonly property real tagSize: Theme.textSize > 1 ? Theme.size(28) : heads
-    readonly property real tagGap: Theme.textSize > 1 ? 0 : 12 * Theme.unit
-    // How far the boxes of a card keep from its edges: at its sides, and above and below.
-    readonly property real inset: (upright ? 22 : 24) * Theme.unit
-    readonly property real pad: (upright ? 24 : 22) * Theme.unit
-    // How wide a drawing is for its letters.
-    readonly property real badge: upright || !paired || Theme.textSize > 1 ? 2.1 : 2.5
-    // Two points stand beside each other on a wide page, which leaves height to what there is to tick.
-    readonly property bool paired: !upright && read.length === 2
-    readonly property bool snug: fitting !== 0
+    readonly property var sizes: upright ? [[34, 38, 0.9, 0.9], [34, 37, 0.75, 0.8], [34, 36, 0.6, 0.7], [32, 36, 0.45, 0.6], [32, 34, 0.4, 0.5], [31, 33, 0.35, 0.5], [30, 31, 0.3, 0.4], [30, 29, 0.25, 0.4]]
+        : [[32, 35, 1, 0.8], [32, 35, 0.85, 0.7], [32, 34, 0.7, 0.65], [32, 34, 0.5, 0.6], [31, 32, 0.4, 0.5], [30, 31, 0.3, 0.4], [29, 29, 0.25, 0.4]]
+    readonly property int fitting: short ? sizes.findIndex(([point, box, inside, apart]) => tall(point, box, inside, apart) <= pane.room) : -1
     readonly property bool tight: fitting < 0
     readonly property var used: sizes[tight ? sizes.length - 1 : Math.min(fitting, sizes.length - 1)]
+    readonly property real heads: Theme.size(upright ? 46 : 44)
+    readonly property real tagSize: Theme.size(30)
+    // How high the word is that stands over the boxes that are up to the visitor, with the air above and below it.
+    readonly property real tagTall: Math.ceil(1.37 * tagSize) + 0.75 * Theme.gap
+    readonly property real between: used[3] * Theme.gap
+    // How wide a drawing is for its letters.
+    readonly property real badge: 1.7
+    readonly property int needed: consent.purposes.filter(purpose => purpose.required).length
+    // Where the page has room, points and boxes have large letters. Headings over the boxes then say which are needed, and
+    // not a word at each: if those come first.
+    readonly property bool roomy: short && !tight && Theme.textSize <= 1.3
+    readonly property bool grouped: roomy && consent.purposes.every((purpose, index) => !purpose.required || index < needed)
     WordWidths {
         id: widths
     }
-    // About how high points and boxes are, with letters of these sizes, so many gaps apart.
-    function tall(pointSize: real, boxSize: real, apart: real, inside: real): real {
-        const wide = paired ? 0.5 * column - Theme.gap : column, [point, box] = [pointSize, boxSize].map(size => Math.round(Theme.size(size)))
-        const points = read.map(each => Math.max(badge * point, 1.48 * point * widths.plainLines(each.text, point, wide - badge * point - Theme.gap)))
-        const boxes = consent.purposes.map(purpose => 2 * inside * Theme.gap + (purpose.required ? 0 : Math.ceil(1.37 * tagSize) + 2 * tagGap) + Math.max((upright ? 76 : 64) * Theme.unit,
-            lineOf(box) * widths.plainLines(purpose.text, box, column - 2 * inset - 144 * Theme.unit)))
-        const needed = consent.purposes.filter(purpose => purpose.required).length
-        return (paired ? Math.max(...points) : sum(points)) + sum(boxes) + 1.2 * heads + 2 * pad
-            + (apart * (0.9 * (paired ? 0 : read.length - 1) + needed) + Math.min(1.6, 0.2 + apart) * (1 + consent.purposes.length - needed)) * Theme.gap
+    // About how high points and boxes are, with letters of these sizes and so many gaps.
+    function tall(pointSize: real, boxSize: real, inside: real, apart: real): real {
+        const [point, box] = [pointSize, boxSize].map(size => Math.round(Theme.size(size))), count = consent.purposes.length
+        const points = read.map(each => Math.max(badge * point, 1.48 * point * widths.plainLines(each.text, point, column - badge * point - Theme.gap)))
+        const boxes = consent.purposes.map(purpose => 2 * inside * Theme.gap + Math.max(64 * Theme.unit,
+            lineOf(box) * widths.plainLines(purpose.text, box, column - 136 * Theme.unit)))
+        return sum(points) + (upright ? 0.6 : 0.5) * (read.length - 1) * Theme.gap + Theme.gap + 1.37 * heads
+            + sum(boxes) + count * apart * Theme.gap + (count > needed ? tagTall : 0)
     }
     // How high a line of a box is: letters and lines have whole pixels.
     function lineOf(size: int): int {
@@ -57,12 +55,21 @@ PageFrame {
     function sum(heights: var): real {
         return heights.reduce((all, each) => all + each, 0)
     }
+    // How wide a point is: where that costs no further line, it leaves the end of its line to the button for all of the text.
+    function pointWidth(index: int): real {
+        const size = Math.round(Theme.size(used[0])), taken = badge * size + Theme.gap, least = column - toggle.width - 1.5 * Theme.gap
+        return widths.plainLines(read[index]?.text ?? "", size, least - taken) === widths.plainLines(read[index]?.text ?? "", size, column - taken) ? least : column
+    }
+    // Whether that stands at the points, or else in the line of the title.
+    readonly property bool placed: roomy && pointWidth(read.length - 1) < column
 
     title: consent.title
     label: words["consent-agree"]
     other: words["consent-decline"]
     way.name: "agree"
     way.even: true
+    // What is to be done first stands out: as long as boxes are to be ticked, both answers are light, and then both are dark.
+    way.light: consent.toGo !== ""
     way.follows: words["consent-agree-line"]
     way.otherFollows: words["consent-decline-line"]
     way.reason: consent.toGo || way.follows
@@ -81,23 +88,20 @@ PageFrame {
     beside: toggle
     besides: consent.points.length > 0
 
-    // The place of a box, and how high the box alone is.
-    component Purpose: Item {
-        property real bare: 0
-    }
-
     BigButton {
         id: toggle
         objectName: "read-more"
         visible: view.besides
         most: 0.45 * view.column
-        // Right after the title on a wide screen, away from the steps of the visit; at the end of the line where it would
+        // At the points, unless they scroll. Else right after the title on a wide screen, away from the steps of the visit; at the end of the line where it would
         // nearly reach that.
+        readonly property bool low: view.placed && !pane.long
         readonly property real after: view.titleWidth + 40 * Theme.unit
-        readonly property bool follows: !view.upright && view.titleInOneLine && after + width + 2 * Theme.gap <= view.column
+        readonly property bool follows: !low && !view.upright && view.titleInOneLine && after + width + 2 * Theme.gap <= view.column
         x: Theme.across(follows ? after : view.column - width, width, view.column)
-        // Level with the title's letters, and above the content where it is higher than they are.
-        y: Math.min(-height - Theme.gap, view.titleMiddle - height / 2)
+        // Level with the points or the last of them. Or with the title's letters, and above the content where it is higher
+        // than they are.
+        y: low ? home.y + points.level - height / 2 : Math.min(-height - Theme.gap, view.titleMiddle - height / 2)
         quiet: true
         font.pixelSize: Theme.reading
         horizontalPadding: 34 * Theme.unit
@@ -124,26 +128,32 @@ PageFrame {
             room: view.room - Math.max(0, view.way.over - 0.5 * Theme.gap) - (Theme.textSize > 1.15 ? 0 : (view.upright && Theme.textSize <= 1 ? 1 : 0.5) * Theme.gap)
             more: view.words["scroll-more"]
             // What there is to tick stands apart from what is read, as far as the page has room.
-            spacing: boxes.grouped ? boxes.apart : Math.max(0.5 * Theme.gap, Math.min((view.upright ? 3.4 : 2.2) * Theme.gap, room - (view.short ? points.height : sheet.height) - boxes.height))
+            spacing: Math.max((view.consent.missing.length > 0 ? 0.4 : 0.5) * Theme.gap, Math.min((view.roomy ? 2 : view.upright ? 3.4 : 2.2) * Theme.gap, room - (view.short ? points.height : sheet.height) - boxes.height))
 
-            Grid {
+            Column {
                 id: points
                 visible: view.short
                 width: pane.width
-                // But where large texts need the room themselves.
-                readonly property bool airy: Theme.textSize <= 1.3 && !view.tight
-                spacing: (!airy ? 0.6 : 0.9 * view.used[2]) * Theme.gap
-                columns: airy && view.paired ? 2 : 1
-                columnSpacing: 2 * Theme.gap
+                spacing: (view.upright ? 0.6 : 0.5) * Theme.gap
+                // The middle of those beside which the button for all of the text has room.
+                readonly property real level: {
+                    let from = height
+                    for (let i = lines.count - 1; i >= 0 && view.pointWidth(i) < view.column; i--)
+                        from = lines.itemAt(i)?.y ?? from
+                    return (from + height) / 2
+                }
                 Repeater {
+                    id: lines
                     model: view.short ? view.read : []
                     SignedLine {
                         required property var modelData
-                        width: (points.width - (points.columns - 1) * points.columnSpacing) / points.columns
+                        required property int index
+                        x: Theme.across(0, width, points.width)
+                        width: view.placed ? view.pointWidth(index) : points.width
                         text: modelData.text
                         sign: modelData.sign
-                        badge: view.badge * size
-                        size: points.airy ? Theme.size(view.used[0]) : Theme.body
+                        badge: (view.roomy ? view.badge : 2.1) * size
+                        size: view.roomy ? Theme.size(view.used[0]) : Theme.body
                     }
                 }
             }
@@ -190,121 +200,73 @@ PageFrame {
                 id: boxes
                 width: pane.width
                 height: stack.height
-                readonly property bool needs: view.consent.purposes.some(purpose => purpose.required)
-                // How many there are by now: the count changes before they are made.
-                property int made: 0
-                // How many come first that are needed.
-                readonly property int first: {
-                    const others = view.consent.purposes.findIndex(purpose => !purpose.required)
-                    return others < 0 ? view.consent.purposes.length : others
-                }
-                // Whether those that are needed share a card, as the answers to a question do, and not a word at each box: if
-                // all of them come first, and where the page has room.
-                readonly property bool grouped: needs && view.short && points.airy && view.consent.purposes.every((purpose, index) => !purpose.required || index < first)
-                // With a capital letter, as a line of its own.
+                // With a capital letter, as it stands alone.
                 readonly property string optional: view.words["consent-optional"].charAt(0).toUpperCase() + view.words["consent-optional"].slice(1)
-                readonly property real inset: grouped ? view.inset : 0
-                // What the page has left for the distance between cards.
-                readonly property real free: {
-                    let left = pane.room - points.height - (grouped ? 2 * view.pad + heading.height : 0)
-                    for (let i = 0; i < made; i++)
-                        left -= ((purposes.itemAt(i) as Purpose)?.bare ?? 0) + (i < first ? stack.spacing : 0)
-                    return left
-                }
-                readonly property int gaps: grouped ? 1 + made - first : 1
-                // Words about a box that is missed may take of it.
-                readonly property real apart: grouped ? Math.max((view.consent.missing.length > 0 ? 0.25 : 0.5) * Theme.gap, Math.min(1.7 * Theme.gap, free / gaps)) : stack.spacing
-                // How high the card is.
-                readonly property real closes: {
-                    const last = made >= first ? purposes.itemAt(first - 1) : null
-                    return last ? last.y + last.height + view.pad : 0
-                }
 
-                Rectangle {
-                    objectName: "consent-card"
-                    visible: boxes.grouped
-                    width: parent.width
-                    height: boxes.closes
-                    radius: Theme.radius
-                    color: Theme.white
-                    border { color: Theme.edge; width: 3 * Theme.unit }
-                    Rectangle {
-                        objectName: "consent-due"
-                        anchors.fill: parent
-                        radius: parent.radius
-                        color: "transparent"
-                        // All edges are dark with high contrast.
-                        border { color: Theme.sea; width: (Theme.highContrast ? 7 : 4) * Theme.unit }
-                        opacity: view.consent.toGo !== "" ? 1 : 0
-                        Behavior on opacity { NumberAnimation { duration: Theme.motion } }
-                    }
-                }
                 Column {
                     id: stack
                     width: parent.width
-                    topPadding: boxes.grouped ? view.pad - 0.2 * view.heads : 0
-                    bottomPadding: boxes.grouped && boxes.first === boxes.made ? view.pad : 0
-                    spacing: (points.airy && view.short ? view.used[2] : Theme.textSize <= 1.15 ? 0.5 : 0.4) * Theme.gap
+                    spacing: view.roomy ? view.between : (Theme.textSize <= 1.15 ? 0.5 : 0.4) * Theme.gap
                     PlainText {
-                        id: heading
                         objectName: "consent-needed"
-                        FontMetrics {
-                            id: letters
-                            font: heading.font
-                        }
-                        visible: boxes.grouped
-                        x: boxes.inset
-                        width: boxes.width - 2 * x
-                        height: Math.ceil(letters.height)
-                        text: view.consent.toGo || view.words["consent-needed"]
+                        visible: view.grouped && view.needed > 0
+                        width: parent.width
+                        height: Math.ceil(1.37 * view.heads)
+                        text: view.heard
                         font { pixelSize: view.heads; bold: true }
                         fontSizeMode: Text.HorizontalFit
                         minimumPixelSize: Theme.size(24)
                         verticalAlignment: Text.AlignVCenter
                     }
                     Repeater {
-                        id: purposes
                         model: view.consent.purposes
-                        onItemAdded: boxes.made++
-                        onItemRemoved: boxes.made--
-                        Purpose {
+                        Item {
                             id: purpose
-                            bare: tick.height
                             required property var modelData
                             required property int index
-                            readonly property bool inside: boxes.grouped && index < boxes.first
-                            // How much further from the one above it than others are.
-                            readonly property real above: !boxes.grouped || inside ? 0 : boxes.apart - stack.spacing + (index === boxes.first ? view.pad : 0)
-                            width: boxes.width
+                            // The first one that is up to the visitor says so for all of them.
+                            readonly property bool parts: view.grouped && index === view.needed
+                            width: stack.width
                             height: tick.y + tick.height
+                            PlainText {
+                                id: tag
+                                objectName: "tag"
+                                visible: purpose.parts
+                                x: Theme.across(0, width, parent.width)
+                                y: 0.4 * Theme.gap
+                                text: boxes.optional
+                                color: Theme.sea
+                                font { pixelSize: view.tagSize; bold: true }
+                                // Each box says it.
+                                Accessible.ignored: true
+                            }
+                            Rectangle {
+                                visible: purpose.parts
+                                x: Theme.across(tag.width + 0.75 * Theme.gap, width, parent.width)
+                                y: tag.y + 0.75 * view.tagSize - height / 2
+                                width: parent.width - tag.width - 0.75 * Theme.gap
+                                height: 3 * Theme.unit
+                                color: Theme.edge
+                            }
                             TickBox {
                                 id: tick
                                 objectName: "purpose-" + purpose.modelData.id
-                                x: purpose.inside ? boxes.inset : 0
-                                y: purpose.above
-                                width: parent.width - 2 * x
-                                large: points.airy && view.short
-                                broad: large && view.upright && !view.snug
-                                // All marks stand below each other.
-                                horizontalPadding: (large ? 28 : 17) * Theme.unit + (boxes.grouped && !purpose.inside ? boxes.inset : 0)
+                                y: purpose.parts ? view.tagTall : 0
+                                width: parent.width
+                                large: view.roomy
                                 font.pixelSize: !large ? Theme.reading : Theme.size(view.used[1])
-                                roomy: view.upright
-                                bottomPadding: verticalPadding + (tagged ? view.tagGap : 0)
-                                verticalPadding: (large ? (purpose.inside ? 0.85 : 1) * view.used[3] : view.short ? 0.25 : 0.45) * Theme.gap
+                                horizontalPadding: (large ? 24 : 17) * Theme.unit
+                                verticalPadding: (large ? view.used[2] : view.short ? 0.25 : 0.45) * Theme.gap
                                 words: purpose.modelData.text
                                 needed: purpose.modelData.required
-                                headed: purpose.inside
-                                tagged: boxes.grouped && !purpose.inside
-                                tagSize: view.tagSize
-                                tagGap: view.tagGap
-                                outdent: 28 * Theme.unit
-                                lighter: !purpose.modelData.required && boxes.needs
+                                headed: view.grouped
+                                lighter: !needed && view.needed > 0
                                 on: view.consent.ticks.includes(purpose.modelData.id)
-                                note: tagged ? boxes.optional : view.words[purpose.modelData.required ? "consent-required" : "consent-optional"]
-                                agreed: tagged ? "" : view.words["consent-agreed"]
+                                note: headed && !needed ? boxes.optional : view.words[needed ? "consent-required" : "consent-optional"]
+                                agreed: headed ? "" : view.words["consent-agreed"]
                                 warning: view.consent.missing.includes(purpose.modelData.id) ? view.words["consent-missing"] : ""
                                 // The first one of a card says so for all of them.
-                                terse: purpose.inside && view.consent.missing[0] !== purpose.modelData.id
+                                terse: headed && view.consent.missing[0] !== purpose.modelData.id
                                 onClicked: view.consent.tick(purpose.modelData.id, !on)
                             }
                             Connections {

@@ -11,11 +11,6 @@ Choosable {
     property bool needed: false
     // Whether a heading above it says so instead; the box still tells it to those who cannot see it.
     property bool headed: false
-    // Whether that stands above it as its heading, how large, how far above it, and how much further out than its mark.
-    property bool tagged: false
-    property real tagSize: Theme.small
-    property real tagGap: 0
-    property real outdent: 0
     // Whether it may be left out, beside others that are needed.
     property bool lighter: false
     // What stands there instead, once it is ticked.
@@ -23,28 +18,23 @@ Choosable {
     property string warning: ""
     // Whether its edge alone shows that.
     property bool terse: false
-    // Whether a large one is higher than its mark on a page with height for it.
-    property bool roomy: false
-    // On an upright page with much height.
-    property bool broad: false
     // On a page with much height.
     property bool large: false
 
     horizontalPadding: (large ? 28 : 17) * Theme.unit
-    font.pixelSize: large ? Theme.size(broad ? 36 : 33) : Theme.reading
+    font.pixelSize: large ? Theme.size(33) : Theme.reading
     Accessible.role: Accessible.CheckBox
     Accessible.name: words
     Accessible.description: warning || note
 
     background: Rectangle {
         radius: Theme.radius
-        // In a card with others its field has no edge.
-        readonly property bool plain: box.headed && !Theme.highContrast
         // What is ticked is darker; the pointer over it changes the edge alone.
-        color: !box.on ? (box.lighter ? Theme.white : Theme.touchable) : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.14))
+        color: !box.on ? (box.lighter && !box.headed ? Theme.white : Theme.touchable) : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.14))
         border {
-            color: box.warning ? Theme.deepAmber : box.hovered || box.on || Theme.highContrast || !box.lighter ? Theme.sea : box.tagged ? Theme.edge : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.45))
-            width: (box.warning || box.hovered ? 4 : plain ? 0 : box.on ? 4 : box.tagged ? 3 : 2) * Theme.unit
+            color: box.warning ? Theme.deepAmber : box.hovered || box.on || Theme.highContrast || !box.lighter ? Theme.sea : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.45))
+            // Below a heading those that are to be ticked have a strong one, and what is ticked has none.
+            width: (box.warning || box.hovered ? 4 : !box.headed || Theme.highContrast ? box.on ? 4 : 2 : box.on ? 0 : box.lighter ? 2 : 4) * Theme.unit
         }
         FocusRing {
             around: box
@@ -55,7 +45,7 @@ Choosable {
     contentItem: Item {
         id: parts
         // What the box is, at its right; where that leaves the words little room, and on an upright page, below them.
-        readonly property real after: Theme.gap
+        readonly property real after: 0.9 * Theme.gap
         readonly property real room: box.availableWidth - mark.width - after
         readonly property string note: box.on && box.agreed !== "" ? box.agreed : box.note
         // As wide for either, so that a tick moves no words.
@@ -70,32 +60,18 @@ Choosable {
             font { family: tag.font.family; pixelSize: tag.font.pixelSize; bold: true }
             text: box.agreed
         }
-        readonly property bool noted: box.note !== "" && box.warning === "" && !box.headed && !box.tagged
+        readonly property bool noted: box.note !== "" && box.warning === "" && !box.headed
         // How far the words keep from it.
         readonly property real clear: (box.large ? 2.5 : 1) * Theme.gap
-        readonly property bool beside: noted && !box.broad && noteWidth + clear < 0.4 * room
-        readonly property bool below: noted && box.broad && noteWidth <= room
+        readonly property bool beside: noted && noteWidth + clear < 0.4 * room
         // A word that it is missed takes from the air above and below the words first: what is below moves little.
         readonly property real yields: box.warning === "" || box.terse ? 0 : Math.min(warned.height, Math.max(0, 2 * box.verticalPadding - 4 * Theme.unit))
-        // Where its words and its mark begin.
-        readonly property real begin: box.tagged ? Math.ceil(1.37 * box.tagSize) + box.tagGap : 0
-        implicitHeight: begin + Math.max(box.large && box.roomy ? 76 * Theme.unit : mark.height, told.height - yields)
+        implicitHeight: Math.max(mark.height, told.height - yields)
         implicitWidth: mark.width
-        PlainText {
-            objectName: "tag"
-            visible: box.tagged
-            x: Theme.across(-box.outdent, width, parts.width)
-            width: parts.width + box.outdent
-            text: box.note
-            font { pixelSize: box.tagSize; bold: true }
-            fontSizeMode: Text.HorizontalFit
-            minimumPixelSize: Theme.size(24)
-            Accessible.ignored: true
-        }
         Rectangle {
             id: mark
             x: Theme.across(0, width, parts.width)
-            y: parts.begin + (parts.height - parts.begin - height) / 2
+            y: (parts.height - height) / 2
             width: (box.large ? 64 : 48) * Theme.unit
             height: width
             radius: 0.2 * width
@@ -119,7 +95,7 @@ Choosable {
         Column {
             id: told
             x: Theme.across(mark.width + parts.after, width, parts.width)
-            y: parts.begin + (parts.height - parts.begin - height) / 2
+            y: (parts.height - height) / 2
             width: parts.room - (parts.beside ? parts.noteWidth + parts.clear : 0)
             Balanced {
                 width: parent.width
@@ -133,25 +109,19 @@ Choosable {
                 textFormat: Text.PlainText
                 width: parent.width
                 visible: text !== ""
-                text: box.warning && !box.terse ? box.warning : (box.headed || box.tagged || parts.beside || parts.below ? "" : parts.note)
+                text: box.warning && !box.terse ? box.warning : (box.headed || parts.beside ? "" : parts.note)
                 horizontalAlignment: LayoutMirroring.enabled ? Text.AlignLeft : undefined
                 font { pixelSize: Theme.small; bold: box.warning !== "" || box.needed }
                 wrapMode: Text.Wrap
                 color: box.warning ? Theme.deepAmber : Theme.faintInk
             }
-            // The place of what the box is.
-            Item {
-                visible: parts.below
-                width: parent.width
-                height: tag.height + 4 * Theme.unit
-            }
         }
         // A text and no more: with a frame it would look like a button.
         Text {
             id: tag
-            visible: parts.beside || parts.below
-            x: parts.below ? told.x + Theme.across(0, width, told.width) : Theme.across(parts.width - width, width, parts.width)
-            y: parts.below ? told.y + told.height - height : (parts.height - height) / 2
+            visible: parts.beside
+            x: Theme.across(parts.width - width, width, parts.width)
+            y: (parts.height - height) / 2
             textFormat: Text.PlainText
             text: parts.note
             font { pixelSize: box.large ? Theme.size(30) : Theme.small; bold: box.needed || text !== box.note }

@@ -23,6 +23,8 @@ FocusScope {
     property string other: ""
     // Whether both are alike: as large, and with the same look, so that the page favours neither.
     property bool even: false
+    // Whether they are light until something else is done: both at once, so that they stay alike.
+    property bool light: false
     // What follows from each, in smaller letters below its words.
     property string follows: ""
     property string otherFollows: ""
@@ -136,6 +138,7 @@ FocusScope {
         height: Math.round(ways.even && ways.refuses ? Math.max(implicitHeight, no.implicitHeight) : implicitHeight)
         corner: ways.abreast ? no.topPadding + no.font.pixelSize : Infinity
         quiet: ways.quiet
+        light: ways.even && ways.light
         under: ways.lined ? ways.follows : ""
         underSize: ways.lineSize
         underLines: ways.lineCount
@@ -161,6 +164,7 @@ FocusScope {
         y: ways.level ? go.y : 0
         height: ways.even ? go.height : implicitHeight
         quiet: !ways.even
+        light: ways.even && ways.light
         under: ways.lined ? ways.otherFollows : ""
         underSize: ways.lineSize
         underLines: ways.lineCount

@@ -114,10 +114,13 @@ class ConsentScreen(QObject):
 
     @Property(str, notify=marked)
     def toGo(self) -> str:  # noqa: N802 - QML's convention
-        """Return how many boxes are still to be ticked to take part; empty if none is."""
+        """Return which boxes are to be ticked to take part; empty once all of them are."""
         if self._page is None or not self.needed:
             return ""
-        return self._catalogue.text("consent-to-go", number=len(self.needed))
+        required = [purpose.required for purpose in self._page.purposes]
+        number = sum(required)
+        come_first = number < len(required) and all(required[:number])
+        return self._catalogue.text("consent-first" if come_first else "consent-to-go", number=number)
 
     @Slot(str, bool)
     def tick(self, purpose: str, ticked: bool) -> None:  # noqa: FBT001 - QML gives no names

@@ -16,7 +16,6 @@ FIXED = (
     "consent-optional",
     "consent-agreed",
     "consent-missing",
-    "consent-needed",
     "consent-ready",
     "consent-agree",
     "consent-agree-line",

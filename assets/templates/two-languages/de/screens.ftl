@@ -36,16 +36,19 @@ consent-required = nötig
 consent-optional = wie du möchtest
 consent-agreed = einverstanden
 consent-missing = Bitte kreuze das an, wenn du teilnehmen möchtest.
-# Over the boxes that are needed, once all of them have a tick.
-consent-needed = Nötig zur Teilnahme
-# In its place, as long as some of them have none.
+# Over the boxes, as long as some that are needed have no tick: if all are needed, and if others follow.
 consent-to-go =
     { $number ->
-        [one] Kreuze zur Teilnahme das leere Kästchen an
+        [one] Kreuze zur Teilnahme das Kästchen an
        *[other] Kreuze zur Teilnahme die { $number } Kästchen an
     }
-# Told to those who cannot see it once all of them have one. It must favour neither answer.
-consent-ready = Mehr ist nicht nötig. Wähle jetzt unten.
+consent-first =
+    { $number ->
+        [one] Kreuze zur Teilnahme das erste Kästchen an
+       *[other] Kreuze zur Teilnahme die ersten { $number } an
+    }
+# In its place, once all of them have one. It must favour neither answer.
+consent-ready = Das ist alles. Wähle jetzt unten.
 consent-agree = Ich nehme teil
 # What follows, below each answer. Both lines are about as long.
 consent-agree-line = Deine Daten werden gespeichert.
