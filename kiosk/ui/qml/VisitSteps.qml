@@ -30,17 +30,24 @@ Item {
     // than larger letters, and so are headings of one line and texts of few.
     readonly property var found: steps.length === 0 ? undefined : chosen()
     function chosen(): var {
-        const held = trials().filter(trial => least(trial) <= room - foot)
+        const held = trials().filter(trial => trial.page <= room - foot)
         return [[1, 3, 176], [2, 3, 176], [2, 4, 176], [1, 9, 0], [2, 9, 0]].map(([head, body, side]) => held.find(trial =>
-            trial.side >= side * Theme.unit && headLines(trial) <= head && bodyLines(trial) <= body)).find(trial => trial !== undefined)
+            trial.side >= side * Theme.unit && trial.headLines <= head && trial.bodyLines <= body)).find(trial => trial !== undefined)
     }
+    // Each with the lines of the card that has most, and how high such a card and all of the page are.
     function trials(): var {
         const all = []
         // Large letters of a small size are as easy to read as small letters of a large one.
         const smaller = Theme.textSize > 1 ? upright ? [[42, 35], [40, 34]] : [[34, 31], [33, 30]] : []
-        for (const [head, body] of [...(upright ? [[50, 42], [48, 40], [46, 38], [44, 36]] : [[44, 38], [42, 37], [40, 36], [38, 34], [36, 33]]), ...smaller])
-            for (const side of upright ? [208, 190, 170, 150, 132] : [260, 240, 220, 200, 188, 176, 160, 140, 120])
-                all.push({head: Theme.size(head), body: Theme.size(body), side: side * Theme.unit})
+        for (const [head, body] of [...(upright ? [[50, 42], [48, 40], [46, 38], [44, 36]] : [[44, 38], [42, 37], [40, 36], [38, 34], [36, 33]]), ...smaller]) {
+            let words = null
+            for (const side of upright ? [208, 190, 170, 150, 132] : [260, 240, 220, 200, 188, 176, 160, 140, 120]) {
+                // Beside no drawing, words have the same lines whatever its size.
+                words = upright || words === null ? wordsAt(Theme.size(head), Theme.size(body), wordsWidth(side * Theme.unit)) : words
+                const card = cardTall(side * Theme.unit, words.tall)
+                all.push({head: Theme.size(head), body: Theme.size(body), side: side * Theme.unit, headLines: words.headLines, bodyLines: words.bodyLines, card: card, page: least(card)})
+            }
+        }
         return all
     }
     readonly property real head: found?.head ?? 0
@@ -74,31 +81,25 @@ Item {
     function wordsWidth(side: real): real {
         return cardWidth - (upright ? side + 1.5 * Theme.gap + 2 * pad : 44 * Theme.unit)
     }
-    function headLines(trial: var): int {
-        return Math.max(...steps.map(step => widths.lines(headingOf(step.text), trial.head, wordsWidth(trial.side))))
+    function wordsAt(head: real, body: real, wide: real): var {
+        const heads = steps.map(step => widths.lines(headingOf(step.text), head, wide))
+        const bodies = steps.map(step => widths.plainLines(bodyOf(step.text), body, 0.98 * wide))
+        const tall = steps.map((_, at) => high(heads[at], head) + high(bodies[at], body))
+        return {headLines: Math.max(...heads), bodyLines: Math.max(...bodies), tall: Math.max(...tall)}
     }
-    function bodyLines(trial: var): int {
-        return Math.max(...steps.map(step => widths.plainLines(bodyOf(step.text), trial.body, 0.98 * wordsWidth(trial.side))))
+    function cardTall(side: real, words: real): real {
+        return 2 * pad + (upright ? Math.max(side, words) : side + Theme.gap + words)
     }
-    // How high the words of the card with the most are.
-    function wordsTall(trial: var): real {
-        const wide = wordsWidth(trial.side)
-        return Math.max(...steps.map(step => high(widths.lines(headingOf(step.text), trial.head, wide), trial.head)
-            + high(widths.plainLines(bodyOf(step.text), trial.body, 0.98 * wide), trial.body)))
-    }
-    function cardTall(trial: var): real {
-        return 2 * pad + (upright ? Math.max(trial.side, wordsTall(trial)) : trial.side + Theme.gap + wordsTall(trial))
-    }
-    function least(trial: var): real {
+    function least(card: real): real {
         const rows = upright ? steps.length : 1
-        return leadTall + between + rows * cardTall(trial) + (rows - 1) * gutter + lastTall
+        return leadTall + between + rows * card + (rows - 1) * gutter + lastTall
     }
     // Cards take what the page has left, up to a third of their height.
     readonly property real tall: {
         if (!found)
             return 0
-        const rows = upright ? steps.length : 1, usual = cardTall(found)
-        return Math.floor(usual + Math.max(0, Math.min(0.33 * usual, (room - foot - least(found)) / rows)))
+        const rows = upright ? steps.length : 1
+        return Math.floor(found.card + Math.max(0, Math.min(0.33 * found.card, (room - foot - found.page) / rows)))
     }
 
     Column {

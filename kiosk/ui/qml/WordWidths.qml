@@ -17,34 +17,43 @@ QtObject {
     readonly property FontMetrics plainLetters: FontMetrics {
         font.pixelSize: 100
     }
-    // Each text is measured once, although many sizes are tried.
-    readonly property var boldWidths: new Map()
-    readonly property var plainWidths: new Map()
+    // Each text is measured once, although many sizes are tried: of a text its width, and those of its words.
+    readonly property var boldTexts: new Map()
+    readonly property var plainTexts: new Map()
+    // A kiosk shows each visitor another code, so texts are not kept for ever.
+    readonly property int mostKept: 2000
 
+    function measured(text: string, letters: FontMetrics, kept: var): var {
+        let found = kept.get(text)
+        if (found === undefined) {
+            const words = text.split(" ").map(word => letters.advanceWidth(word))
+            found = {whole: words.length > 1 ? letters.advanceWidth(text) : words[0], words: words}
+            if (kept.size >= mostKept)
+                kept.clear()
+            kept.set(text, found)
+        }
+        return found
+    }
     // How wide a text is in one line of bold letters, as questions have them.
     function bold(text: string, size: real): real {
-        if (!boldWidths.has(text))
-            boldWidths.set(text, boldLetters.advanceWidth(text))
-        return boldWidths.get(text) * size / 100
+        return measured(text, boldLetters, boldTexts).whole * size / 100
     }
     // The same in plain letters, as options and the ends of scales have them.
     function plain(text: string, size: real): real {
-        if (!plainWidths.has(text))
-            plainWidths.set(text, plainLetters.advanceWidth(text))
-        return plainWidths.get(text) * size / 100
+        return measured(text, plainLetters, plainTexts).whole * size / 100
     }
     // How many lines of bold letters a text has in so much width, and how many of plain ones.
     function lines(text: string, size: real, width: real): int {
-        return linesOf(text, size, width, bold)
+        return linesOf(measured(text, boldLetters, boldTexts).words, bold(" ", size), size, width)
     }
     function plainLines(text: string, size: real, width: real): int {
-        return linesOf(text, size, width, plain)
+        return linesOf(measured(text, plainLetters, plainTexts).words, plain(" ", size), size, width)
     }
-    function linesOf(text: string, size: real, width: real, measured: var): int {
-        const room = 0.98 * width, gap = measured(" ", size)
+    function linesOf(words: var, gap: real, size: real, width: real): int {
+        const room = 0.98 * width
         let count = 1, end = 0
-        for (const word of text.split(" ")) {
-            const wide = measured(word, size), fits = end > 0 && end + gap + wide <= room
+        for (const word of words) {
+            const wide = word * size / 100, fits = end > 0 && end + gap + wide <= room
             // A word that is longer than a line, as in languages without spaces, is broken.
             count += (end > 0 && !fits ? 1 : 0) + Math.max(0, Math.ceil(wide / room) - 1)
             end = fits ? end + gap + wide : wide
