@@ -24,7 +24,8 @@ PageFrame {
     readonly property int fitting: short ? sizes.findIndex(([point, box, inside, apart]) => tall(point, box, inside, apart) <= pane.room) : -1
     readonly property bool tight: fitting < 0
     readonly property var used: sizes[tight ? sizes.length - 1 : Math.min(fitting, sizes.length - 1)]
-    readonly property real heads: Theme.size(upright ? 46 : 44)
+    // Large texts need the room themselves.
+    readonly property real heads: Theme.size(Theme.textSize > 1.15 ? 38 : upright ? 46 : 44)
     readonly property real tagSize: Theme.size(30)
     // How high the word is that stands over the boxes that are up to the visitor, with the air above and below it.
     readonly property real tagTall: Math.ceil(1.37 * tagSize) + 0.75 * Theme.gap

@@ -30,7 +30,7 @@ Choosable {
     background: Rectangle {
         radius: Theme.radius
         // What is ticked is darker; the pointer over it changes the edge alone.
-        color: !box.on ? (box.lighter && !box.headed ? Theme.white : Theme.touchable) : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.14))
+        color: !box.on ? (box.lighter && !box.headed ? Theme.white : Theme.touchable) : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, box.headed ? 0.06 : 0.14))
         border {
             color: box.warning ? Theme.deepAmber : box.hovered || box.on || Theme.highContrast || !box.lighter ? Theme.sea : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.45))
             // Below a heading those that are to be ticked have a strong one, and what is ticked has none.
