@@ -19,6 +19,7 @@ Item {
     readonly property alias lined: formView.lined
 
     TurnedAway {
+        id: turnedAway
         anchors.fill: parent
         windowLayout: page.windowLayout
         form: formView
@@ -34,6 +35,7 @@ Item {
         Binding on accompanied { when: page.follows; value: page.windowLayout.accompanied && !page.avatar.away; restoreMode: Binding.RestoreNone }
         Binding on turned { when: page.follows; value: page.avatar.present && page.avatar.away; restoreMode: Binding.RestoreNone }
         focus: true
+        sunk: turnedAway.slack / 2
         aligned: page.windowLayout.accompanied
         before: page.windowLayout.pageX
         form: page.form

@@ -35,8 +35,10 @@ PageFrame {
     readonly property real kept: turned && !shape.upright && wider && Theme.textSize <= 1.15
         ? Math.max(0, 200 * Theme.unit - (height - usualFoot + Theme.gap)) : 0
     // How much height its ratings leave to that back, which is larger then. Below an upright page, the ways stand higher.
-    readonly property real spare: !turned ? 0 : Math.max(0, shape.solo ? shape.cleared - pane.tall : ratingRows.table ? ratingRows.left : shape.scaled ? pane.vacant : 0)
-    raised: shape.upright ? spare : 0
+    readonly property real spare: !turned ? 0 : Math.max(0, shape.solo ? shape.cleared - pane.tall : ratingRows.sheet ? ratingRows.left : shape.scaled ? pane.vacant : 0)
+    // How much of that is above the ways.
+    property real sunk: 0
+    raised: shape.upright ? spare - sunk : 0
     // Whether it is and stays so.
     readonly property bool still: keyboard.field === null && (shape.upright || !pane.long)
 
@@ -226,7 +228,7 @@ PageFrame {
             readonly property real share: shape.rows() / Math.max(1, shape.seen().length)
             // How much the places take that the page has beyond its items, as far as high cards do not need it.
             readonly property real vacant: Math.min(room * (1 - boxes.count / Math.max(boxes.count, shape.rows())), room - tall - shape.seen().length * least)
-            spacing: Math.max(least, Math.min(ratingRows.table?.gap ?? (shape.upright ? 72 : view.wider ? 28 : 44) * Theme.unit,
+            spacing: ratingRows.sheet ? 0 : Math.max(least, Math.min((shape.upright ? 72 : view.wider ? 28 : 44) * Theme.unit,
                 (room - heads - share * (tall - heads)) / Math.max(boxes.count, shape.rows())))
             Repeater {
                 id: boxes

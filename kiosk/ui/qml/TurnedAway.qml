@@ -1,5 +1,5 @@
-// The helper's back, while it is rated, and a word on why: on the window's lower edge, on a wide page between the way back
-// and the way on, and on an upright one beside the controls. Where the ratings leave height, it stands closer.
+// The helper's back, while it is rated, and its word on why: on the window's lower edge, on a wide page between the way back
+// and the way on, and on an upright one beside the controls or above them. Where the ratings leave height, it is larger.
 import QtQuick
 import "."
 
@@ -21,15 +21,20 @@ Item {
     // Where the last card can end on a wide page, and where the way on ends on an upright one.
     readonly property real over: form.y + form.foot + (wide ? -Theme.gap - form.kept - form.spare : form.way.height)
     readonly property real clear: (wide ? 8 : Theme.textSize > 1 ? 24 : 40) * Theme.unit
-    // Whether it stands closer, and how high it is then at most. It is no larger than its face on other pages.
+    // How high it is at most where they leave none, and where they do.
     readonly property real usual: 192 * Theme.unit
-    readonly property bool close: form.spare >= 0.5 * usual
-    readonly property real most: close ? Math.min((wide ? 2 : 2.5) * usual, usual + form.spare, (room - (wide && tells ? needs + 2 * Theme.gap : 0)) / back.shape) : usual
-    // On an upright page the words then stand above the controls, and have the width up to the page's edge.
-    readonly property bool above: close && !wide
-    readonly property real apart: (close ? 1 : 0.5) * Theme.gap
-    // Whether there is room for the words beside it, and how much they take.
-    readonly property real needs: Math.ceil(measured.advanceWidth) + apart
+    readonly property real most: wide ? Math.min(1.5 * usual, usual + form.spare, (room - (tells ? needs + 2 * Theme.gap : 0)) / back.shape) : 2.3 * usual
+    // How much of an upright page's height it still leaves then.
+    readonly property real slack: wide ? 0 : Math.max(0, windowLayout.room - form.y - form.usualFoot + form.spare - form.way.height - clear - most)
+    readonly property real letters: Theme.size(wide ? 36 : above ? 40 : 34)
+    // What it says stands in a bubble: how far its words are from the edge of that, and how far that is from the back.
+    readonly property real pad: 28 * Theme.unit
+    readonly property real apart: 30 * Theme.unit
+    readonly property real needs: Math.ceil(measured.advanceWidth) + 2 * pad + apart
+    // How much height it needs above the controls.
+    readonly property real tall: Math.ceil(1.37 * Theme.size(40)) + 36 * Theme.unit
+    // On an upright page that stands above the controls, where there is height for it, and has the width up to the page's edge.
+    readonly property bool above: !wide && windowLayout.cornerY - over >= tall + 1.5 * Theme.gap
     readonly property bool tells: above || room >= back.shape * usual + needs
     readonly property real least: from + Theme.gap + (wide && tells && !Theme.mirrored ? needs : 0)
     readonly property real last: to - Theme.gap - back.width - (tells && Theme.mirrored ? needs : 0)
@@ -50,21 +55,40 @@ Item {
         text: words.text
         font: words.font
     }
-    PlainText {
-        id: words
-        objectName: "why-turned-away"
+    Rectangle {
+        id: bubble
+        objectName: "turned-away-bubble"
         readonly property bool before: away.wide && !Theme.mirrored
+        readonly property real inner: Math.ceil(measured.advanceWidth)
+        width: Math.min(inner, away.above ? away.line + away.form.column - x - 2 * away.pad : inner) + 2 * away.pad
+        height: words.height + (away.wide || away.above ? 36 : 24) * Theme.unit
         x: before ? back.x - away.needs : back.x + back.width + away.apart
         // In one line with the ways, or with the controls.
-        y: away.above ? Math.min(back.y + 0.45 * back.height, away.windowLayout.cornerY - Theme.gap) - height
+        y: away.above ? Math.min(back.y + 0.5 * back.height, away.windowLayout.cornerY - Theme.gap) - height
             : away.wide ? away.form.y + away.form.foot + (away.form.way.height - height) / 2
-            : away.windowLayout.cornerY + (away.windowLayout.corner.height - height) / 2
-        width: away.above ? away.line + away.form.column - x : Math.ceil(measured.advanceWidth)
+            : Math.min(away.windowLayout.cornerY + away.windowLayout.corner.height / 2, away.windowLayout.room - 0.3 * Theme.gap - height / 2) - height / 2
         visible: back.visible && away.tells
-        text: away.why
-        horizontalAlignment: before ? Text.AlignRight : Text.AlignLeft
-        wrapMode: away.above ? Text.Wrap : Text.NoWrap
-        font.pixelSize: Theme.size(away.close ? away.wide ? 40 : 46 : away.wide ? 34 : 36)
-        color: Theme.faintInk
+        radius: Theme.radius
+        color: Theme.white
+        border { color: Theme.sea; width: 4 * Theme.unit }
+
+        PlainText {
+            id: words
+            objectName: "why-turned-away"
+            x: away.pad
+            y: (bubble.height - height) / 2
+            width: bubble.width - 2 * away.pad
+            text: away.why
+            horizontalAlignment: Text.AlignHCenter
+            wrapMode: away.above ? Text.Wrap : Text.NoWrap
+            font.pixelSize: away.letters
+            color: Theme.ink
+        }
+        SpeechTail {
+            x: (bubble.before ? bubble.width + 9 * Theme.unit : -9 * Theme.unit) - width / 2
+            y: (bubble.height - height) / 2
+            rotation: bubble.before ? -90 : 90
+            scale: 0.75
+        }
     }
 }

@@ -43,6 +43,9 @@ Item {
     readonly property bool below: questions.below(item)
     // Whether its options stand in columns.
     readonly property bool columned: questions.columns !== null
+    // How it is laid out on the sheet of an upright page; null if it is not on one.
+    readonly property var stack: rows.stack
+    readonly property bool ample: page.ample && stack === null
     // How it is laid out where the page has room for that; else null.
     readonly property var roomy: questions.roomy
     // Whether it has no card.
@@ -58,32 +61,34 @@ Item {
     readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asks + (way.active ? usualSpacing + (choices?.least ?? way.height) : 0)) + 2 * usualMargin - Math.min(over, flexible)
     // How much height its statement and its scale leave of what two lines and a scale of five points take: on such a page
     // all cards are as high, and cards and scales stand at the same places on all pages with as many.
-    readonly property real lacks: page.ample ? Math.max(0, Math.ceil((1 + question.lineHeight) * lineOf.height) - question.height) : 0
+    readonly property real lacks: ample ? Math.max(0, Math.ceil((1 + question.lineHeight) * lineOf.height) - question.height) : 0
     // One line stands in the middle of the height of two.
     readonly property real lowered: lacks / 2
-    readonly property real inset: page.ample ? (way.item as PointScale)?.inset ?? 0 : 0
+    readonly property real inset: ample ? (way.item as PointScale)?.inset ?? 0 : 0
     // How much more a word takes that it is missed, and how much of that its distances can give: its card stays as high.
-    readonly property real over: page.ample ? Math.max(0, lowered + told.height - question.height - lacks) : 0
-    readonly property real flexible: page.ample ? usualSpacing + closest - leastSpacing + 2 * (usualMargin - leastMargin) : 0
-    readonly property real asks: page.ample ? question.height + lacks + over + 2 * inset : told.height
-    readonly property real addable: page.alone || beside || roomy !== null ? 0 : (page.ample ? 48 : 32) * Theme.unit
+    readonly property real over: ample ? Math.max(0, lowered + told.height - question.height - lacks) : 0
+    readonly property real flexible: ample ? usualSpacing + closest - leastSpacing + 2 * (usualMargin - leastMargin) : 0
+    readonly property real asks: ample ? question.height + lacks + over + 2 * inset : told.height
+    readonly property real addable: page.alone || beside || stack !== null || roomy !== null ? 0 : (ample ? 48 : 32) * Theme.unit
     readonly property real usualSpacing: roomy?.spacing ?? (page.solo ? lone.spacing : page.alone ? 2 * Theme.gap : spacingUnits() * Theme.unit)
     // What is added goes between a statement and its points before it goes to the margins of their card.
     readonly property real closest: 22 * Theme.unit
     readonly property real leastSpacing: 6 * Theme.unit
     readonly property real leastMargin: 9 * Theme.unit
-    readonly property real between: page.ample || page.scarce ? Math.min(closest, addable * loosened) : 0
+    readonly property real between: ample || page.scarce ? Math.min(closest, addable * loosened) : 0
     // A word that it is missed takes of the first, and then of the others.
     readonly property real given: Math.max(0, Math.min(over, usualSpacing + between - leastSpacing))
     readonly property real spacing: usualSpacing + between - given
     readonly property real loose: usualMargin + (addable * loosened - between) / 2
     readonly property real margin: Math.max(Math.min(loose, leastMargin), loose - (over - given) / 2)
-    readonly property real usualMargin: bare ? 0 : roomy?.margin ?? (page.solo ? lone.margin
+    readonly property real usualMargin: bare ? 0 : stack?.margin ?? roomy?.margin ?? (page.solo ? lone.margin
         : rows.own || rows.table ? Math.max((rows.table ? 4 : 10) * Theme.unit, rows.margin - taken / 2) : marginUnits() * Theme.unit)
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
     readonly property real taken: rows.measured ? Math.max(0, told.height - rows.height) : 0
     // Letters have some air above them already; what stands below them does not.
-    readonly property real raised: crowned ? 5 * Theme.unit : page.alone && roomy === null || beside || inline || page.dense || page.ample ? 0 : 4 * Theme.unit
+    readonly property real raised: crowned ? 5 * Theme.unit : page.alone && roomy === null || beside || inline || page.dense || ample || stack !== null ? 0 : 4 * Theme.unit
+    // How far a statement on a sheet is from its points: a word that it is missed takes of that, and of the margin above.
+    readonly property real off: stack === null ? 0 : Math.max(leastSpacing, Math.min(stack.spacing, stack.height - stack.point - told.height + stack.margin - leastMargin))
     readonly property var ways: ({
         likert: points, differential: points, pictures: points, slider: line, single: choice, multiple: choice,
         integer: number, text: letters, page: null
@@ -93,7 +98,7 @@ Item {
     function spacingUnits(): real {
         if (page.dense)
             return 4
-        if (page.ample)
+        if (ample)
             return 16
         if (page.easy)
             return 18
@@ -108,7 +113,7 @@ Item {
             return 8
         if (page.tight)
             return 10
-        if (page.ample)
+        if (ample)
             return 15
         if (page.easy)
             return inline ? 28 : 30
@@ -122,6 +127,8 @@ Item {
     function asking(): real {
         if (item.kind === "page")
             return Theme.size(36)
+        if (stack !== null)
+            return stack.text
         if (page.solo)
             return lone.asking(item.shown)
         if (roomy !== null || columned)
@@ -178,12 +185,17 @@ Item {
             guest.focus = false
         }
     }
-    // The words for the ends stand above the first card of a table.
-    readonly property real head: parted + (topped ? rows.table.head : beside && headed && !rows.own ? ((way.item as PointScale)?.words ?? 0) + 8 * Theme.unit : 0)
-    // Whether it is the first card of a table, which the band with these words is joined to.
-    readonly property bool topped: rows.table !== null && headed
+    // The words for the ends stand above the first part of a sheet.
+    readonly property real head: parted + (topped ? rows.sheet.head : beside && headed && !rows.own ? ((way.item as PointScale)?.words ?? 0) + 8 * Theme.unit : 0)
+    // Whether it is the first part of a sheet, which the band with these words is joined to.
+    readonly property bool topped: rows.sheet !== null && page.before(index) === null
 
-    height: head + content.height + 2 * margin
+    // How far its part of a sheet lies under the next one, whose edge is its own, too; the last is as high.
+    readonly property bool last: page.after(index) === null
+    readonly property real joint: rows.sheet === null || last ? 0 : rows.joint
+    height: head + content.height + 2 * margin + (rows.sheet !== null && last ? rows.joint : 0)
+    // Its edge lies over those of its neighbours on a sheet.
+    z: due || missed ? 1 : 0
 
     TableHead {
         objectName: "table-head"
@@ -193,29 +205,18 @@ Item {
         rows: box.rows
         leftEnd: box.item.left ?? ""
         rightEnd: box.item.right ?? ""
-        before: box.width - box.page.inset - box.rows.scaleWidth
+        inset: box.page.inset
     }
-    Rectangle {
+    ItemCard {
         id: card
-        objectName: `card-${box.item.id}`
-        anchors { fill: parent; topMargin: box.head }
-        radius: Theme.radius
-        topLeftRadius: box.topped ? 0 : radius
-        topRightRadius: topLeftRadius
-        color: box.bare ? "transparent" : Theme.white
-        border { color: box.missed ? Theme.deepAmber : Theme.edge; width: box.bare ? 0 : (box.missed ? 5 : 3) * Theme.unit }
-        Rectangle {
-            objectName: `due-${box.item.id}`
-            anchors.fill: parent
-            radius: Theme.radius
-            topLeftRadius: card.topLeftRadius
-            topRightRadius: topLeftRadius
-            color: "transparent"
-            // All edges are dark with high contrast.
-            border { color: Theme.sea; width: (Theme.highContrast ? 7 : 3) * Theme.unit }
-            opacity: box.due && !box.missed ? 1 : 0
-            Behavior on opacity { NumberAnimation { duration: Theme.motion } }
-        }
+        // Parts of a sheet share the line between them.
+        anchors { fill: parent; topMargin: box.head; bottomMargin: -box.joint }
+        item: box.item.id
+        bare: box.bare
+        missed: box.missed
+        due: box.due
+        joinsAbove: box.rows.sheet !== null
+        joinsBelow: box.joint > 0
     }
 
     FontMetrics {
@@ -224,7 +225,9 @@ Item {
     }
     Column {
         id: content
-        anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; verticalCenterOffset: box.head / 2 - box.raised; margins: box.bare ? 0 : box.page.inset }
+        anchors { left: parent.left; right: parent.right; margins: box.bare ? 0 : box.page.inset }
+        // In the middle of its card, on whole pixels.
+        y: Math.round(box.head + box.margin - box.raised + (box.rows.sheet !== null ? box.rows.joint / 2 : 0))
         // The word that a rating alone is missed stands in that distance, and its points stay where they are.
         spacing: box.page.solo && box.missed ? Math.max(20 * Theme.unit, box.usualSpacing - told.spacing - note.height) : box.spacing
 
@@ -232,20 +235,20 @@ Item {
             id: asked
             width: parent.width
             // Where the middle of a row is: that of the points, and not of words above them.
-            readonly property real scaled: (way.item as PointScale)?.size ?? (way.item as SliderScale)?.rail ?? 0
+            readonly property real scaled: (way.item as PointScale)?.tall ?? (way.item as SliderScale)?.rail ?? 0
             // How high the words are that head the points, where they are not in a band.
             readonly property real heads: (way.item as PointScale)?.head ?? 0
             // The text is level with the points. With the light words below them, these stand a little above the middle.
             readonly property real axis: box.rows.flank ? middle : box.rows.own ? Math.max((height - way.height + scaled) / 2 + 0.3 * box.rows.margin, told.height / 2 - 8 * Theme.unit) : middle
             // Rows of one line and of two are as high; with words for its ends it is as high as a scale and a line of words.
             readonly property real middle: Math.max(box.rows.own || box.rows.table ? box.rows.height : scaled, told.height, box.beside && !box.page.dense ? (1 + box.rows.closeness) * 1.37 * box.rows.text : 0) / 2
-            height: box.crowned ? box.rows.flank.crownedHeight : box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : box.asks + (way.active ? content.spacing + way.height : 0)
+            height: box.stack?.height ?? (box.crowned ? box.rows.flank.crownedHeight : box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : box.asks + (way.active ? content.spacing + way.height : 0))
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.inset + box.lowered
+                y: box.stack !== null ? box.stack.height - box.stack.point - box.off - height : box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.inset + box.lowered
                 width: box.beside && !box.crowned ? box.rows.textWidth : box.inline ? asked.width - box.questions.fieldWidth : asked.width
-                spacing: box.inline || box.below && !box.ranged || box.rows.table ? 0 : box.page.solo ? 12 * Theme.unit : box.page.ample ? 4 * Theme.unit : box.usualSpacing
+                spacing: box.inline || box.below && !box.ranged || box.rows.sheet ? 0 : box.page.solo ? 12 * Theme.unit : box.ample ? 4 * Theme.unit : box.usualSpacing
                 Balanced {
                     id: question
                     width: parent.width
@@ -255,7 +258,7 @@ Item {
                         pixelSize: box.asking()
                         bold: box.item.kind !== "page"
                     }
-                    lineHeight: box.item.kind === "page" ? 1.15 : box.page.ample || box.page.solo ? 0.92 : box.rows.closeness
+                    lineHeight: box.item.kind === "page" ? 1.15 : box.stack !== null || box.ample || box.page.solo ? 0.92 : box.rows.closeness
                     horizontalAlignment: box.page.solo ? Text.AlignHCenter : Text.AlignLeft
                 }
                 // What a number may be, below the question where the number stands beside that.
@@ -300,19 +303,19 @@ Item {
             }
             Loader {
                 id: way
-                readonly property real room: box.beside && !box.crowned ? box.rows.scaleWidth - box.rows.beyond : asked.width
+                readonly property real room: box.beside && !box.crowned ? box.rows.scaleWidth - box.rows.beyond : asked.width - box.rows.beyond
                 x: Theme.across(box.crowned ? 0 : box.beside ? asked.width - box.rows.scaleWidth : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.crowned ? asked.height - height : box.rows.flank ? asked.middle - height / 2 : box.rows.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : box.asks - box.inset + content.spacing
+                y: box.crowned || box.stack !== null ? asked.height - height : box.rows.flank ? asked.middle - height / 2 : box.rows.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : box.asks - box.inset + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
             }
-            // In a table, that it does not apply is a column of its own after the points.
+            // On a sheet, that it does not apply is a column of its own after the points.
             Loader {
-                active: box.item.exempts && box.rows.table !== null
+                active: box.item.exempts && box.rows.sheet !== null
                 visible: active
                 x: Theme.across(asked.width - width, width, asked.width)
-                y: asked.middle - height / 2
+                y: box.stack !== null ? asked.height - (box.stack.point + height) / 2 : asked.middle - height / 2
                 sourceComponent: exemption
             }
         }
@@ -329,7 +332,7 @@ Item {
             onLoaded: drawn.answered.connect(value => box.form.give(box.item.id, value))
         }
         Loader {
-            active: box.item.exempts && box.rows.table === null
+            active: box.item.exempts && box.rows.sheet === null
             visible: active
             x: Theme.across(0, width, parent.width)
             sourceComponent: exemption
@@ -352,34 +355,14 @@ Item {
 
     Component {
         id: exemption
-        Choosable {
-            id: nothing
+        NotApplicable {
             objectName: `not-applicable-${box.item.id}`
             on: box.form.exempt.includes(box.item.id)
             words: box.words["form-not-applicable"]
-            font.pixelSize: Theme.small
-            leftPadding: 18 * Theme.unit
-            rightPadding: 18 * Theme.unit
-            verticalPadding: (box.page.dense ? 4 : box.rows.table ? 14 : 8) * Theme.unit
-            Accessible.role: Accessible.CheckBox
-            Accessible.name: `${box.item.text} ${words}`
+            label: box.item.text
+            dense: box.page.dense
+            tabled: box.rows.sheet !== null
             onClicked: box.form.dismiss(box.item.id)
-            contentItem: Text {
-                textFormat: Text.PlainText
-                text: nothing.words
-                font: nothing.font
-                color: nothing.on ? Theme.white : Theme.ink
-            }
-            background: Rectangle {
-                radius: height / 2
-                color: nothing.on ? Theme.sea : Theme.touchable
-                border { color: Theme.sea; width: (nothing.hovered ? 4 : 2) * Theme.unit }
-                FocusRing {
-                    around: nothing
-                    reach: 6 * Theme.unit
-                    radius: height / 2
-                }
-            }
         }
     }
     Component {
@@ -390,7 +373,7 @@ Item {
             headed: box.headed
             own: box.rows.own
             flank: box.rows.flank
-            table: box.rows.table
+            table: box.rows.sheet
             crowned: box.crowned
             lift: box.rows.own ? 0 : box.usualMargin + asked.middle - size / 2 + 8 * Theme.unit
             item: box.item.id
@@ -404,8 +387,8 @@ Item {
             dense: box.page.dense
             tight: box.page.tight
             large: box.page.large
-            even: box.page.ample
-            joins: box.page.upright && !box.page.solo
+            even: box.ample
+            joins: box.page.upright || box.rows.table !== null || box.page.solo
             onChosen: point => box.form.rate(box.item.id, point)
         }
     }

@@ -83,8 +83,11 @@ QtObject {
     function rows(): int {
         return ample ? fits : Math.max(1, form.fullest, seen().length)
     }
-    // The item that is seen before this one, or null.
+    // The item that is seen before this one, and the one after it; null if there is none.
     function before(at: int): var {
         return items.slice(0, at).filter(item => !form.hidden.includes(item.id)).pop() ?? null
+    }
+    function after(at: int): var {
+        return items.slice(at + 1).find(item => !form.hidden.includes(item.id)) ?? null
     }
 }

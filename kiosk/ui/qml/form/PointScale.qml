@@ -44,14 +44,14 @@ Item {
     // from edge to edge, and the words stand below them.
     readonly property bool many: points > 7 && !pictured
     readonly property bool spread: flank !== null && many && !crowned
-    readonly property bool joined: joins && many
-    // Two fields share the line between them.
-    readonly property real line: Math.max(1, Math.round(3 * Theme.unit))
-    readonly property real size: lone ? Math.min(wish, filling) : joined ? Math.floor(width) / points : spread ? Math.min(76 * Theme.unit, filling) : (flank ?? table)?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
+    readonly property bool joined: joins && !pictured && (many || lone !== null || table !== null)
+    // How round the ends of that bar are: a field has half its width for that.
+    readonly property real rounding: Math.floor(Math.min(tall, size) / 2)
+    readonly property real size: joined ? Math.floor(width) / points : lone ? Math.min(wish, filling) : spread ? Math.min(76 * Theme.unit, filling) : (flank ?? table)?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
     // How high they are: much smaller ones that are given that height take it, and are easier to hit.
     readonly property bool evened: even && below && !pictured
     readonly property bool long: joined || (evened ? size < 0.85 * wish : lone !== null && !pictured && size < 0.7 * wish)
-    readonly property real tall: long ? lone?.tall ?? wish : size
+    readonly property real tall: long ? table?.point ?? lone?.tall ?? wish : size
     // How much of that height they leave, above themselves and below.
     readonly property real inset: evened ? Math.max(0, (wish - tall) / 2) : 0
     readonly property real filling: width / (points + (lone?.apart ?? (even ? 0.113 : 0.24)) * (points - 1))
@@ -76,7 +76,7 @@ Item {
     readonly property real head: beside && headed && !own && !table ? words + lift : 0
 
     // In a row, what has air below its letters is in the middle by what can be seen of it.
-    height: spread ? row.height + words + under - 8 * Theme.unit : flank ? size : beside && !own ? head + row.height : below ? row.height + words + under : Math.max(row.height, words)
+    height: table !== null ? row.height : spread ? row.height + words + under - 8 * Theme.unit : flank ? size : beside && !own ? head + row.height : below ? row.height + words + under : Math.max(row.height, words)
 
     // Under the first point, or above it; or before it, at the edge where the question begins.
     PlainText {
@@ -143,9 +143,7 @@ Item {
                 height: scale.tall
                 readonly property bool leftmost: index === (Theme.mirrored ? scale.points - 1 : 0)
                 readonly property bool rightmost: index === (Theme.mirrored ? 0 : scale.points - 1)
-                rightInset: scale.joined && !rightmost ? -scale.line : 0
-                // Its whole edge is seen when it differs from those of its neighbours.
-                z: scale.joined && (on || hovered || visualFocus) ? 1 : 0
+                z: visualFocus ? 1 : 0
                 scale: down ? 0.94 : 1
                 Accessible.role: Accessible.RadioButton
                 Accessible.name: `${scale.label} ${number}` + (index === 0 ? ` ${scale.leftEnd}` : number === scale.points ? ` ${scale.rightEnd}` : "")
@@ -173,16 +171,25 @@ Item {
                     }
                 }
                 background: Rectangle {
-                    radius: scale.pictured || scale.joined ? Theme.radius : width / 2
+                    radius: scale.pictured ? Theme.radius : scale.joined ? 0 : width / 2
                     // A bar is round at its own ends.
-                    topLeftRadius: scale.joined && !point.leftmost ? 0 : radius
+                    topLeftRadius: scale.joined && point.leftmost ? scale.rounding : radius
                     bottomLeftRadius: topLeftRadius
-                    topRightRadius: scale.joined && !point.rightmost ? 0 : radius
+                    topRightRadius: scale.joined && point.rightmost ? scale.rounding : radius
                     bottomRightRadius: topRightRadius
                     // Only what is chosen is filled; the pointer over it changes the edge alone.
                     color: point.on ? (scale.pictured ? Theme.sand : Theme.sea) : scale.pictured ? Theme.white : Theme.touchable
                     border.color: Theme.sea
-                    border.width: (point.on && scale.pictured ? 8 : point.hovered ? 5 : 3) * Theme.unit
+                    border.width: (scale.joined ? point.hovered ? 5 : 0 : point.on && scale.pictured ? 8 : point.hovered ? 5 : 3) * Theme.unit
+                    // What parts the fields of a bar.
+                    Rectangle {
+                        visible: scale.joined && point.index > 0
+                        x: Theme.across(-width / 2, width, parent.width)
+                        y: (parent.height - height) / 2
+                        width: 3 * Theme.unit
+                        height: (Theme.highContrast ? 1 : 0.5) * parent.height
+                        color: Theme.shy
+                    }
                     FocusRing {
                         around: point
                         reach: 8 * Theme.unit
@@ -191,5 +198,16 @@ Item {
                 }
             }
         }
+    }
+    // The edge of a bar.
+    Rectangle {
+        visible: scale.joined
+        x: row.x
+        y: row.y
+        width: row.width
+        height: row.height
+        radius: scale.rounding
+        color: "transparent"
+        border { color: Theme.sea; width: 3 * Theme.unit }
     }
 }

@@ -21,9 +21,16 @@ QtObject {
 
     readonly property bool possible: !page.upright && !page.alone && !page.largeText
     // How much of the page's height the rows of a table leave. Hidden ones count: what depends on it stays where it is.
-    readonly property real left: table === null ? 0 : page.cleared - table.head + table.gap - page.items.length * (table.height + 2 * table.margin + table.gap)
+    readonly property real left: sheet === null ? 0 : (stack !== null ? page.free : page.cleared) - sheet.head - joint - page.items.length * (sheet.height + 2 * sheet.margin)
     // How the rows of such a table look, all measures of them; null if they are none.
     readonly property var table: !possible || !alike() ? null : tabled()
+    // How ratings of an upright page look that all have the same scale; null if they do not. They stand on a sheet as well,
+    // with each scale below its statement.
+    readonly property var stack: page.upright && !page.alone && alike() ? stacked() : null
+    // What the parts of either look like, which have no distance between them.
+    readonly property var sheet: table ?? stack
+    // How wide the line between them is.
+    readonly property real joint: Math.round(3 * Theme.unit)
     // The same of flanked rows.
     readonly property var flank: !possible || table !== null || page.dense || !page.rates ? null
         : page.items.some(many) ? flanked(true) ?? flanked(false) : flanked(false)
@@ -35,8 +42,8 @@ QtObject {
     // How much of a row is its question's and its scale's.
     readonly property real textWidth: measured?.textWidth ?? 0.42 * page.inner
     readonly property real scaleWidth: measured?.scaleWidth ?? 0.54 * page.inner
-    // How much of the scale's width is after its points, for that button or the end of the word above the last.
-    readonly property real beyond: table?.beyond ?? 0
+    // How much of the scale's width is after its points, for that button.
+    readonly property real beyond: sheet?.beyond ?? 0
     // How high the second line of a question is, as a share of the first.
     readonly property real closeness: table !== null && !page.dense ? 0.92 : 1
     // How high the content of a row is, and how much of the row is above and below that.
@@ -52,6 +59,10 @@ QtObject {
     // these may stand.
     readonly property var tableTrials: [
         [104, 34, 42, 2], [104, 34, 40, 2], [100, 34, 38, 2], [96, 32, 36, 2], [96, 32, 34, 2], [92, 30, 32, 2], [84, 28, 32, 2], [76, 28, 32, 2], [72, 28, 29, 2], [72, 28, 29, 3]
+    ]
+    // The same of the sheet of an upright page.
+    readonly property var stackTrials: [
+        [112, 34, 42, 2], [112, 34, 40, 2], [112, 34, 38, 2], [112, 32, 36, 2], [112, 30, 34, 2], [100, 30, 34, 3], [100, 28, 32, 3]
     ]
     // The sizes of points, of the words for their ends and of questions that flanked rows are tried in, and in how many
     // lines these may stand.
@@ -105,26 +116,49 @@ QtObject {
     // points leave. What all pages ask that are laid out like this one counts.
     function tabled(): var {
         const one = page.items[0], rows = page.rows()
-        const gap = (page.dense ? 8 : 20) * Theme.unit
         for (const [pointUnits, endUnits, textUnits, most] of tableTrials) {
             const point = pointUnits * Theme.unit, end = Theme.size(endUnits), text = Theme.size(textUnits)
             const left = 1.03 * widths.plain(one.left, end), right = 1.03 * widths.plain(one.right, end)
-            // Each of the words stands over the middle of its point.
-            const pointsWidth = Math.ceil(Math.max((one.points + 0.23 * (one.points - 1)) * point, point + (left + right) / 2 + Theme.gap))
-            // What the last word has after its point: that an item does not apply, or some air.
-            const after = Math.ceil(Math.max(page.dense ? 0 : 3 * Theme.gap, (right - point) / 2 - page.inset + 0.75 * Theme.gap))
-            const exempting = page.items.some(item => item.exempts) ? Math.ceil(1.03 * widths.plain(exemption, Theme.small)) + 36 * Theme.unit + Theme.gap : 0
-            const beyond = Math.max(after, exempting), scaleWidth = pointsWidth + beyond
+            // Both words stand at the ends of the points, in one line unless they are long.
+            const pointsWidth = Math.ceil(Math.max(1.25 * one.points * point, Math.min(left + right + Theme.gap, 0.42 * page.inner)))
+            const scaleWidth = pointsWidth + exempting
             const textWidth = page.inner - scaleWidth - 2 * Theme.gap
             const lines = Math.max(0, ...page.form.wordings.map(asked => widths.lines(asked, text, textWidth)))
             // Even pixels: what is in the middle of a row is at the same place in all of them.
             const height = 2 * Math.ceil(Math.max(point, widths.leading * text * (page.dense ? lines : 1 + 0.92 * Math.max(1, lines - 1))) / 2)
-            const head = Math.ceil(widths.leading * end + (page.dense ? 4 : 14) * Theme.unit)
-            const margin = Math.floor(Math.min(44 * Theme.unit, ((page.cleared - head + gap) / rows - gap - height) / 2))
-            if (lines <= most && textWidth > 0.3 * page.inner && margin >= (page.dense ? 8 : 12) * Theme.unit)
-                return {point, end, beyond, scaleWidth, textWidth, text, height, margin, head, gap}
+            const head = headHeight(end, pointsWidth, page.dense ? 4 : 14)
+            const margin = Math.floor(Math.min(54 * Theme.unit, ((page.cleared - head - joint) / rows - height) / 2))
+            if (lines <= most && textWidth > 0.3 * page.inner && margin >= (page.dense ? 8 : 14) * Theme.unit)
+                return {point, end, beyond: exempting, scaleWidth, textWidth, text, height, margin, head}
         }
         return null
+    }
+    // How the sheet of an upright page looks in the first sizes in which it fits; null if it fits in none. All parts are as
+    // high as that of the longest statement, which the scales of all pages are as far below.
+    function stacked(): var {
+        const one = page.items[0], rows = Math.max(1, page.form.fullest, page.items.length)
+        for (const [pointUnits, endUnits, textUnits, most] of stackTrials) {
+            const point = pointUnits * Theme.unit, end = Theme.size(endUnits), text = Theme.size(textUnits), spacing = 24 * Theme.unit
+            const head = headHeight(end, page.inner - exempting, 16)
+            const lines = Math.max(0, ...page.form.wordings.map(asked => widths.lines(asked, text, page.inner)))
+            const height = Math.ceil(widths.leading * text * (1 + 0.92 * (lines - 1)) + spacing + point)
+            const margin = Math.floor(Math.min(30 * Theme.unit, ((page.free - head - joint) / rows - height) / 2))
+            if (lines <= most && margin >= 20 * Theme.unit)
+                return {point, end, beyond: exempting, text, spacing, height, margin, head}
+        }
+        return null
+    }
+    // How much of a scale's width the button takes that says that an item does not apply.
+    readonly property real exempting: page.items.some(item => item.exempts) ? Math.ceil(1.03 * widths.plain(exemption, Theme.small)) + 36 * Theme.unit + Theme.gap : 0
+    // How high the band is with the words for the ends.
+    function headHeight(end: real, span: real, air: real): real {
+        const one = page.items[0], words = [[one.left, one.right], [one.right, one.left]]
+        return Math.ceil(widths.leading * end * Math.max(...words.map(([of, other]) => widths.plainLines(of, end, endRoom(of, other, end, span)))) + air * Theme.unit)
+    }
+    // How much of the width of the points the word for an end has, in their band: a short one leaves a long one the rest.
+    function endRoom(of: string, other: string, end: real, span: real): real {
+        const needs = text => Math.ceil(1.03 * widths.plain(text, end)) + 2, half = (span - Theme.gap) / 2
+        return needs(of) <= half ? needs(of) : Math.max(half, span - Theme.gap - needs(other))
     }
     // The largest questions with which a table fits, none of them in more than so many lines.
     function tableText(most: int): var {

@@ -1,5 +1,6 @@
-// The head of a table of ratings: a band that is joined to the first row, with the words for both ends over the middles of
-// the first point and the last.
+// The head of a sheet of ratings: a band that is joined to the first, with the words for both ends. Each begins or ends where
+// the scales below it do.
+pragma ComponentBehavior: Bound
 import QtQuick
 import ".."
 
@@ -9,29 +10,36 @@ Rectangle {
     required property RatingRows rows
     required property string leftEnd
     required property string rightEnd
-    // How far the first point is from the edge where reading begins.
-    required property real before
+    // How far what stands on the sheet is from its edges.
+    required property real inset
 
-    readonly property real point: rows.table?.point ?? 0
-    readonly property real span: rows.scaleWidth - rows.beyond
+    // Where the scales are, from the edge where reading begins.
+    readonly property real span: rows.table !== null ? rows.scaleWidth - rows.beyond : width - 2 * inset - rows.beyond
+    readonly property real before: rows.table !== null ? width - inset - rows.scaleWidth : inset
+
+    readonly property real size: rows.sheet?.end ?? Theme.small
 
     color: Theme.band
     border { color: Theme.edge; width: 3 * Theme.unit }
     topLeftRadius: Theme.radius
     topRightRadius: Theme.radius
 
-    PlainText {
-        x: Theme.across(head.before + head.point / 2 - width / 2, width, head.width)
+    component End: PlainText {
         anchors.verticalCenter: parent.verticalCenter
-        text: head.leftEnd
-        font.pixelSize: head.rows.table?.end ?? Theme.small
+        wrapMode: Text.Wrap
+        font.pixelSize: head.size
         color: Theme.ink
     }
-    PlainText {
-        x: Theme.across(head.before + head.span - head.point / 2 - width / 2, width, head.width)
-        anchors.verticalCenter: parent.verticalCenter
+    End {
+        x: Theme.across(head.before, width, head.width)
+        width: head.rows.endRoom(head.leftEnd, head.rightEnd, head.size, head.span)
+        text: head.leftEnd
+        horizontalAlignment: Text.AlignLeft
+    }
+    End {
+        x: Theme.across(head.before + head.span - width, width, head.width)
+        width: head.rows.endRoom(head.rightEnd, head.leftEnd, head.size, head.span)
         text: head.rightEnd
-        font.pixelSize: head.rows.table?.end ?? Theme.small
-        color: Theme.ink
+        horizontalAlignment: Text.AlignRight
     }
 }
