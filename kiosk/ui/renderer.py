@@ -67,6 +67,7 @@ _FILLED: Mapping[type[Effect], str] = {
     do.ShowResult: "result",
     do.ShowItems: "form",
     do.ShowDebrief: "debrief",
+    do.ShowThanks: "thanks",
 }
 """The page that an effect fills and then shows; a practice is on the page of the game."""
 
@@ -90,6 +91,7 @@ class Renderer:
         self._input_guard: TimerWait | None = None
         self._calming: TimerWait | None = None
         self._is_rated = False
+        self._back: bool | None = None
         self._plan: SessionConfig | None = None
         screens.kiosk.screen_changed.connect(self._start_input_guard)
         screens.kiosk.screen_changed.connect(self._mind_screen)
@@ -109,10 +111,11 @@ class Renderer:
         """Leave nothing of a session: no wait, no sound, and no screen that remembers; then show this one."""
         for timer in Timer:
             self._stop_wait(timer)
-        if self.embodiments is not None:
-            self.embodiments.end_session()
         self.screens.clear()
         self.screens.kiosk.show(screen)
+        # Where the avatar comes back, the page of the last visitor is not laid out once more.
+        if self.embodiments is not None:
+            self.embodiments.end_session()
 
     def perform(self, effects: Iterable[Effect]) -> None:
         """Carry out these effects in their order."""
@@ -122,6 +125,9 @@ class Renderer:
     def steps(self, effects: Iterable[Effect]) -> Iterator[None]:  # noqa: C901, PLR0912, PLR0915 - one case per effect
         """Carry out these effects in their order; yields where the event loop may do other things in between."""
         screens = self.screens
+        effects = tuple(effects)
+        # A page is laid out once, with the way back that it has.
+        self._back = next((effect.offered for effect in effects if isinstance(effect, do.OfferBack)), None)
         for effect in effects:
             if type(effect) in _FILLED:
                 screens.kiosk.expect(_FILLED[type(effect)])
@@ -203,8 +209,7 @@ class Renderer:
                 case do.ShowItems(items, number, of=pages, rates=rates, hidden=hidden, title=title, alike=alike):
                     self._let_be_rated(rated=rates)
                     screens.form.show(items, number, pages, hidden, title, alike)
-                    yield from self._while_unseen("form")
-                    screens.kiosk.show("form")
+                    yield from self._turn_to("form")
                 case do.HideItems(items=hidden):
                     screens.form.hide(hidden)
                 case do.ShowAnswer(item=item, value=value):
@@ -215,7 +220,7 @@ class Renderer:
                     screens.debrief.show(page)
                     yield from self._turn_to("debrief")
                 case do.ShowThanks():
-                    screens.kiosk.show("thanks")
+                    yield from self._turn_to("thanks")
                 case do.ShowPause():
                     screens.kiosk.pause(paused=True)
                 case do.HidePause():
@@ -246,7 +251,7 @@ class Renderer:
     def _turn_to(self, page: str) -> Iterator[None]:
         """Show a page that is filled."""
         yield from self._while_unseen(page)
-        self.screens.kiosk.show(page)
+        self.screens.kiosk.show(page, goes_back=self._back)
 
     def _while_unseen(self, page: str) -> Iterator[None]:
         """Yield between filling a page and showing it: together they would hold up the loop for two frames.

@@ -309,6 +309,19 @@ def test_a_page_is_filled_in_one_step_and_shown_in_the_next(booth: Booth, closed
     assert shown == [(name, "introduction") for name in names]
 
 
+def test_a_page_has_its_way_back_from_the_moment_it_is_shown(make_booth: MakeBooth) -> None:
+    app = make_booth(settings=Settings.model_validate({"questionnaires": ["trust"], **PAIR})).app
+    kiosk = app.screens.kiosk
+    begun: list[tuple[str, bool]] = []
+    kiosk.screen_changed.connect(lambda: begun.append((kiosk.shown, kiosk.property("goesBack"))))
+    settled = []
+    for stage in (Stage.ABOUT, Stage.AGE, Stage.CONSENT, Stage.INTRODUCTION, Stage.THANKS):
+        go_to(app, stage)
+        settled.append((kiosk.shown, kiosk.property("goesBack")))
+        assert begun[-1] == settled[-1]
+    assert {goes_back for _, goes_back in settled} == {True, False}
+
+
 @pytest.mark.parametrize("dropped", [False, True], ids=["the session ends", "the session is dropped meanwhile"])
 def test_each_page_is_cleared_in_a_step_of_its_own_and_the_start_screen_comes_in_the_last(
     make_booth: MakeBooth, *, dropped: bool

@@ -141,7 +141,7 @@ class ScreenSet:
         self.set_language(self.resting)
 
     def clear_unseen(self) -> Iterator[None]:
-        """Leave nothing of a visitor on the pages that do not stand there; yields before each of them."""
+        """Leave nothing of a visitor on the pages that do not stand there; yields before each, and at the end."""
         for screen, names in (
             (self.about, {"about"}),
             (self.consent, {"consent"}),
@@ -153,6 +153,7 @@ class ScreenSet:
             if self.kiosk.shown not in names:
                 yield
                 screen.clear()
+        yield
 
     def connect_input(self, to: InputHandler) -> None:
         """Hand on what visitors do: the language of a new one, and an event for everything after that."""

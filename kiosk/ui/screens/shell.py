@@ -102,8 +102,9 @@ class KioskScreen(QObject):
 
     def offer_back(self, *, offered: bool) -> None:
         """Let the visitor go back to the page before, or not."""
-        self._goes_back = offered
-        self.controls.emit()
+        if offered is not self._goes_back:
+            self._goes_back = offered
+            self.controls.emit()
 
     def set_text_size(self, size: TextSize) -> None:
         """Show all texts in this size."""
@@ -135,12 +136,13 @@ class KioskScreen(QObject):
             self._coming = screen
             self.expected.emit()
 
-    def show(self, screen: str) -> None:
-        """Show the screen of this name; it takes no input until ``end_input_guard``."""
+    def show(self, screen: str, *, goes_back: bool | None = None) -> None:
+        """Show the screen of this name, which may have a way back; it takes no input until ``end_input_guard``."""
         self._screen = screen
         self._asks = ""
-        self.controls.emit()
+        self._goes_back = self._goes_back if goes_back is None else goes_back
         self._start_input_guard()
+        self.controls.emit()
         self.expect("")
 
     def end_input_guard(self) -> None:
