@@ -30,11 +30,21 @@ console-cannot-resume = It cannot go on: { $why }
 
 console-title = For the experimenter
 console-close = Close
-console-keys = Tab and arrows go around, Enter does it, Esc closes. Left alone for a minute, it closes by itself.
+console-keys = Tab and arrows go around, Enter does it, Esc closes. The panel closes by itself after a minute without a touch or a key.
 console-all-well = All is well
-console-session-none = No visitor is there
-console-session-paused = Paused until you close this
-console-session-stays = Stays paused after closing
+console-paused = Paused
+console-on-break = On a break
+console-back =
+    { $stage ->
+        [attract] Back to the start screen
+        [introduction] Back to the introduction
+        [practice] Back to the practice
+        [game] Back to the game
+        [result] Back to the result
+        [questions] Back to the questions
+        [over] Back to the screen
+   *[other] Back to the session
+    }
 
 ## The first page
 
@@ -77,6 +87,7 @@ console-supervisor-remedy = Start the kiosk with one
 console-remote = From afar
 console-remote-there = the status is published
 console-remote-not = no connection: { $why }
+console-remote-remedy = Check the network and the broker
 console-booth = The booth
 
 ## Health
@@ -88,11 +99,14 @@ console-mark-ill = not well
 console-robot = Robot
 console-robot-none = There is none
 console-robot-absent = none set up
+console-robot-remedy = Check its power and the network; the avatar helps meanwhile
 console-avatar = Avatar
 console-voice = Voice
+console-voice-remedy = Check the loudspeaker and the sound settings
 console-voice-quiet = silent on purpose
+console-voice-quiet-remedy = Visitors can only read what the helper says
 console-voice-changed = another voice pack than in earlier sessions
-console-voice-changed-remedy = See which ones
+console-voice-changed-remedy = See in which sessions
 console-disk = Disk
 console-disk-free = { $free } free
 console-disk-warn = only { $free } free
@@ -100,10 +114,14 @@ console-disk-warn-remedy = Make room this evening
 console-disk-refuse = only { $free } free: no session can begin
 console-disk-refuse-remedy = Make room now
 console-disk-unknown = how much is free cannot be seen
+console-disk-unknown-remedy = Check that the data folder can be read
 console-database = Database
+console-database-remedy = Check the disk and its permissions
 console-backup-none = no copy yet
+console-backup-none-remedy = A copy protects the data
 console-backup-made = last copy { $ago }
 console-backup-failed = the last copy failed: { $why }
+console-backup-failed-remedy = Mend that, then try again
 console-backup-busy = being made …
 console-backup-waits = after this session
 console-minutes =
@@ -122,6 +140,7 @@ console-clock-well = goes as it should
 console-clock-behind = { $hours } h behind what was written last
 console-clock-behind-remedy = Set the clock
 console-clock-jumped = was set by { $seconds } s since the start
+console-clock-jumped-remedy = Check that the time is right
 console-policy = Policy
 console-study = Study
 console-pin-line-name = PIN
@@ -215,7 +234,7 @@ console-actions = Actions
 console-repeat = Say it again
 console-mute = Turn the sound off
 console-heard = Turn the sound on
-console-stay-paused = Stay paused
+console-stay-paused = Stay paused after closing
 console-switch-on = on
 console-switch-off = off
 console-break = A break: back in

@@ -30,11 +30,21 @@ console-cannot-resume = No puede continuar: { $why }
 
 console-title = Panel de control
 console-close = Cerrar
-console-keys = Tab y flechas para moverse, Intro para hacer, Esc para cerrar. Tras un minuto sin nadie se cierra solo.
+console-keys = Tab y flechas para moverse, Intro para hacer, Esc para cerrar. Tras un minuto sin uso se cierra solo.
 console-all-well = Todo está bien
-console-session-none = No hay nadie
-console-session-paused = En pausa hasta cerrar
-console-session-stays = En pausa también después
+console-paused = En pausa
+console-on-break = En descanso
+console-back =
+    { $stage ->
+        [attract] Volver al inicio
+        [introduction] Volver a la introducción
+        [practice] Volver a la práctica
+        [game] Volver al juego
+        [result] Volver al resultado
+        [questions] Volver a las preguntas
+        [over] Volver a la pantalla
+   *[other] Volver a la sesión
+    }
 
 ## The first page
 
@@ -77,6 +87,7 @@ console-supervisor-remedy = Inicia el quiosco con uno
 console-remote = A distancia
 console-remote-there = el estado se publica
 console-remote-not = sin conexión: { $why }
+console-remote-remedy = Revisa la red y el servidor
 console-booth = El puesto
 
 ## Health
@@ -88,11 +99,14 @@ console-mark-ill = no está bien
 console-robot = Robot
 console-robot-none = No hay
 console-robot-absent = sin configurar
+console-robot-remedy = Revisa su corriente y la red; mientras, ayuda el avatar
 console-avatar = Avatar
 console-voice = Voz
+console-voice-remedy = Revisa el altavoz y los ajustes de sonido
 console-voice-quiet = en silencio a propósito
+console-voice-quiet-remedy = Solo se puede leer lo que dice el ayudante
 console-voice-changed = otro paquete de voz que en sesiones anteriores
-console-voice-changed-remedy = Mira cuáles
+console-voice-changed-remedy = Mira en qué sesiones
 console-disk = Disco
 console-disk-free = { $free } libres
 console-disk-warn = solo { $free } libres
@@ -100,10 +114,14 @@ console-disk-warn-remedy = Haz sitio esta noche
 console-disk-refuse = solo { $free } libres: nadie puede empezar
 console-disk-refuse-remedy = Haz sitio ya
 console-disk-unknown = no se sabe cuánto queda libre
+console-disk-unknown-remedy = Comprueba que se puede leer la carpeta de datos
 console-database = Datos
+console-database-remedy = Revisa el disco y sus permisos
 console-backup-none = aún no hay copia
+console-backup-none-remedy = Una copia protege los datos
 console-backup-made = última copia { $ago }
 console-backup-failed = la última copia falló: { $why }
+console-backup-failed-remedy = Arréglalo y vuelve a intentarlo
 console-backup-busy = en curso …
 console-backup-waits = tras esta sesión
 console-minutes =
@@ -122,6 +140,7 @@ console-clock-well = va como debe
 console-clock-behind = { $hours } h por detrás de lo último escrito
 console-clock-behind-remedy = Ajusta el reloj
 console-clock-jumped = se ha movido { $seconds } s desde el inicio
+console-clock-jumped-remedy = Comprueba la hora
 console-policy = Política
 console-study = Estudio
 console-pin-line-name = PIN
@@ -215,7 +234,7 @@ console-actions = Acciones
 console-repeat = Repetir la frase
 console-mute = Quitar el sonido
 console-heard = Activar el sonido
-console-stay-paused = Seguir en pausa
+console-stay-paused = Seguir en pausa después
 console-switch-on = sí
 console-switch-off = no
 console-break = Un descanso: de vuelta en

@@ -30,11 +30,21 @@ console-cannot-resume = Non può continuare: { $why }
 
 console-title = Pannello di controllo
 console-close = Chiudi
-console-keys = Tab e frecce per spostarsi, Invio per eseguire, Esc per chiudere. Dopo un minuto senza nessuno si chiude da sé.
+console-keys = Tab e frecce per spostarsi, Invio per eseguire, Esc per chiudere. Dopo un minuto senza uso si chiude da sé.
 console-all-well = Tutto bene
-console-session-none = Non c’è nessuno
-console-session-paused = In pausa finché non chiudi
-console-session-stays = In pausa anche dopo
+console-paused = In pausa
+console-on-break = In pausa
+console-back =
+    { $stage ->
+        [attract] Torna all’inizio
+        [introduction] Torna all’introduzione
+        [practice] Torna alla prova
+        [game] Torna al gioco
+        [result] Torna al risultato
+        [questions] Torna alle domande
+        [over] Torna allo schermo
+   *[other] Torna alla seduta
+    }
 
 ## The first page
 
@@ -77,6 +87,7 @@ console-supervisor-remedy = Avvia il chiosco con uno
 console-remote = A distanza
 console-remote-there = lo stato viene pubblicato
 console-remote-not = nessuna connessione: { $why }
+console-remote-remedy = Controlla la rete e il server
 console-booth = La postazione
 
 ## Health
@@ -88,11 +99,14 @@ console-mark-ill = non va bene
 console-robot = Robot
 console-robot-none = Non ce n’è
 console-robot-absent = non configurato
+console-robot-remedy = Controlla la corrente e la rete; intanto aiuta l’avatar
 console-avatar = Avatar
 console-voice = Voce
+console-voice-remedy = Controlla l’altoparlante e le impostazioni dell’audio
 console-voice-quiet = in silenzio di proposito
+console-voice-quiet-remedy = Si può solo leggere ciò che dice l’aiutante
 console-voice-changed = pacchetto vocale diverso da quello delle sessioni precedenti
-console-voice-changed-remedy = Vedi quali
+console-voice-changed-remedy = Vedi in quali sedute
 console-disk = Disco
 console-disk-free = { $free } liberi
 console-disk-warn = solo { $free } liberi
@@ -100,10 +114,14 @@ console-disk-warn-remedy = Fai spazio stasera
 console-disk-refuse = solo { $free } liberi: nessuno può iniziare
 console-disk-refuse-remedy = Fai spazio subito
 console-disk-unknown = non si sa quanto spazio resta
+console-disk-unknown-remedy = Controlla che la cartella dei dati sia leggibile
 console-database = Dati
+console-database-remedy = Controlla il disco e i suoi permessi
 console-backup-none = nessuna copia
+console-backup-none-remedy = Una copia protegge i dati
 console-backup-made = ultima copia { $ago }
 console-backup-failed = l’ultima copia non è riuscita: { $why }
+console-backup-failed-remedy = Risolvi, poi riprova
 console-backup-busy = in corso …
 console-backup-waits = dopo questa seduta
 console-minutes =
@@ -122,6 +140,7 @@ console-clock-well = va come deve
 console-clock-behind = indietro di { $hours } h rispetto all’ultima registrazione
 console-clock-behind-remedy = Regola l’orologio
 console-clock-jumped = è stato spostato di { $seconds } s dall’avvio
+console-clock-jumped-remedy = Controlla l’ora
 console-policy = Politica
 console-study = Studio
 console-pin-line-name = PIN
@@ -215,7 +234,7 @@ console-actions = Azioni
 console-repeat = Ripeti la frase
 console-mute = Disattiva l’audio
 console-heard = Attiva l’audio
-console-stay-paused = Resta in pausa
+console-stay-paused = Resta in pausa anche dopo
 console-switch-on = sì
 console-switch-off = no
 console-break = Una pausa: di ritorno tra

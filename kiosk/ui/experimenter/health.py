@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import partial
 from math import ceil
 
 from kiosk.assistance.wording import Catalogue
@@ -34,7 +35,9 @@ class HealthLine:
     command: str = ""
     """What is to be typed for that, away from the kiosk."""
     action: str = ""
-    """The action of the panel that does it, whose button then says so; empty if it is done elsewhere."""
+    """The action of the panel that does it; empty if it is done elsewhere."""
+    button: str = ""
+    """What the button of that action says."""
     is_used: bool = True
     """False for what is not set up, or off on purpose: it is no fault, but nothing is in order there either."""
     is_due: bool = False
@@ -143,9 +146,9 @@ def booth_lines(state: HealthInputs, study: StudyConfig, catalogue: Catalogue) -
 def _remote(state: HealthInputs, catalogue: Catalogue) -> Iterator[HealthLine]:
     if state.remote is not None:
         words = catalogue.text("console-remote-not", why=state.remote) if state.remote else ""
-        yield HealthLine(
-            catalogue.text("console-remote"), words or catalogue.text("console-remote-there"), is_ok=not state.remote
-        )
+        name, there = catalogue.text("console-remote"), catalogue.text("console-remote-there")
+        remedy = catalogue.text("console-remote-remedy") if words else ""
+        yield HealthLine(name, words or there, is_ok=not words, remedy=remedy)
 
 
 def health_parts(state: HealthInputs, catalogue: Catalogue) -> Iterator[PartStatus]:
@@ -165,7 +168,8 @@ def _robot(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
     name = catalogue.text("console-robot")
     if state.robot is None:
         return HealthLine(name, catalogue.text("console-robot-absent"), is_used=False)
-    return HealthLine(name, state.robot.message, state.robot.is_ok)
+    remedy = "" if state.robot.is_ok else catalogue.text("console-robot-remedy")
+    return HealthLine(name, state.robot.message, state.robot.is_ok, remedy=remedy)
 
 
 def _voice(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
@@ -175,14 +179,16 @@ def _voice(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
             name,
             catalogue.text("console-voice-quiet"),
             is_ok=False,
-            remedy=catalogue.text("console-heard"),
+            remedy=catalogue.text("console-voice-quiet-remedy"),
             action=Action.MUTE.value,
+            button=catalogue.text("console-heard"),
         )
     if state.voice.is_ok and state.pack_changed:
         remedy = catalogue.text("console-voice-changed-remedy")
         changed = catalogue.text("console-voice-changed")
         return HealthLine(name, changed, is_ok=False, remedy=remedy, command="recollect verify")
-    return HealthLine(name, state.voice.message, state.voice.is_ok, is_used=state.voice.is_used)
+    remedy = "" if state.voice.is_ok else catalogue.text("console-voice-remedy")
+    return HealthLine(name, state.voice.message, state.voice.is_ok, remedy=remedy, is_used=state.voice.is_used)
 
 
 def is_pack_changed(pack: tuple[str, str], earlier: Iterable[tuple[str, str]]) -> bool:
@@ -194,7 +200,8 @@ def is_pack_changed(pack: tuple[str, str], earlier: Iterable[tuple[str, str]]) -
 def _disk(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
     name = catalogue.text("console-disk")
     if state.free_space is None:
-        return HealthLine(name, catalogue.text("console-disk-unknown"), is_ok=False)
+        remedy = catalogue.text("console-disk-unknown-remedy")
+        return HealthLine(name, catalogue.text("console-disk-unknown"), is_ok=False, remedy=remedy)
     free = state.free_space.free_mib
     size = f"{free / MIB_PER_GIB:.1f} GiB" if free >= MIB_PER_GIB else f"{free} MiB"
     message = {
@@ -207,18 +214,25 @@ def _disk(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
     return HealthLine(name, catalogue.text(message, free=size), is_enough, remedy=remedy)
 
 
+def database_fault(why: str, catalogue: Catalogue) -> HealthLine:
+    """Return the line of a database that cannot be read, or takes nothing."""
+    remedy = catalogue.text("console-database-remedy")
+    return HealthLine(catalogue.text("console-database"), why, is_ok=False, remedy=remedy)
+
+
 def _database(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
     name, translate = catalogue.text("console-database"), catalogue.text
     if state.audit_error:
-        return HealthLine(name, state.audit_error, is_ok=False)
+        return database_fault(state.audit_error, catalogue)
+    copying = partial(HealthLine, action=Action.BACKUP.value, button=translate("console-backup"))
     if state.last_backup is None:
         if state.copy:
             return HealthLine(name, state.copy, is_used=False)
-        missing, remedy = translate("console-backup-none"), translate("console-backup")
-        return HealthLine(name, missing, remedy=remedy, action=Action.BACKUP.value, is_due=True)
+        remedy = translate("console-backup-none-remedy")
+        return copying(name, translate("console-backup-none"), remedy=remedy, is_due=True)
     if state.last_backup.file is None:
-        failed, remedy = translate("console-backup-failed", why=state.last_backup.why), translate("console-backup")
-        return HealthLine(name, failed, is_ok=False, remedy=remedy, action=Action.BACKUP.value)
+        failed = translate("console-backup-failed", why=state.last_backup.why)
+        return copying(name, failed, is_ok=False, remedy=translate("console-backup-failed-remedy"))
     minutes = max(0, state.clocks.now_ms - state.last_backup.at_ms) // MS_PER_MINUTE
     return HealthLine(name, translate("console-backup-made", ago=ago(minutes, catalogue)))
 
@@ -244,9 +258,8 @@ def _clock(clocks: Clocks, catalogue: Catalogue) -> HealthLine:
         remedy = catalogue.text("console-clock-behind-remedy")
         return HealthLine(name, catalogue.text("console-clock-behind", hours=hours), is_ok=False, remedy=remedy)
     if abs(clocks.jump_ms) > DRIFT_MS:
-        return HealthLine(
-            name, catalogue.text("console-clock-jumped", seconds=round(clocks.jump_ms / MS_PER_SECOND)), is_ok=False
-        )
+        jumped = catalogue.text("console-clock-jumped", seconds=round(clocks.jump_ms / MS_PER_SECOND))
+        return HealthLine(name, jumped, is_ok=False, remedy=catalogue.text("console-clock-jumped-remedy"))
     return HealthLine(name, catalogue.text("console-clock-well"))
 
 

@@ -17,7 +17,14 @@ from kiosk.ui.experimenter.actions import AUTOMATIC, LOUDNESS, ActionController,
 from kiosk.ui.experimenter.alarms import alarm_rows
 from kiosk.ui.experimenter.audit_log import AuditLog
 from kiosk.ui.experimenter.authorisation import AuthorisationFlow
-from kiosk.ui.experimenter.health import HealthInputs, HealthLine, booth_lines, health_lines, is_pack_changed
+from kiosk.ui.experimenter.health import (
+    HealthInputs,
+    HealthLine,
+    booth_lines,
+    database_fault,
+    health_lines,
+    is_pack_changed,
+)
 from kiosk.ui.experimenter.maintenance import MaintenanceScheduler
 from kiosk.ui.experimenter.panel_rows import (
     NameCondition,
@@ -183,12 +190,11 @@ class Panel:
         found = health_lines(state, self._catalogue)
         more = booth_lines(state, self._booth.assigner.study, self._catalogue)
         if self._unread:
-            found = (*found, HealthLine(self._catalogue.text("console-database"), self._unread, is_ok=False))
+            found = (*found, database_fault(self._unread, self._catalogue))
         to_do = [line for line in (*found, *more) if not line.is_ok or line.is_due]
         self._screen.show_health(
             {
-                # What a button answers stands first, and of that what is well but due last.
-                "matters": [asdict(line) for line in sorted(to_do, key=lambda line: (not line.action, line.is_due))],
+                "matters": [asdict(line) for line in sorted(to_do, key=_weight)],
                 "lines": [asdict(line) for line in found if line not in to_do],
                 "more": [asdict(line) for line in more],
             }
@@ -231,12 +237,6 @@ class Panel:
     def _under_way(self) -> bool:
         return self._actions.stage not in (Stage.ATTRACT, Stage.OVER)
 
-    def _session_words(self, *, stays_paused: bool) -> str:
-        """Return whether a session is under way, and until when it is paused."""
-        if not self._under_way:
-            return self._catalogue.text("console-session-none")
-        return self._catalogue.text("console-session-stays" if stays_paused else "console-session-paused")
-
     def _choices(self) -> Row:
         """Return what can be chosen, and what is chosen now."""
         booth, actions, told = self._booth, self._actions, self._catalogue.text
@@ -245,7 +245,7 @@ class Panel:
         embodiments = booth.embodiments
         robot = next((str(name) for name in embodiments.health if name != EmbodimentName.AVATAR), "")
         return {
-            "session": self._session_words(stays_paused=stays_paused),
+            "back": told("console-back", stage=actions.stage.value),
             "underWay": under_way,
             "conditions": [
                 {"value": each.name if each else AUTOMATIC, "label": self._name(each)}
@@ -284,6 +284,11 @@ class Panel:
         }
 
 
+def _weight(line: HealthLine) -> int:
+    """Return the place of a matter among the others: silence first, which one press ends, and the copies last."""
+    return {Action.MUTE.value: 0, Action.BACKUP.value: 2}.get(line.action, 1)
+
+
 def copy_words(upkeep: MaintenanceScheduler, catalogue: Catalogue) -> str:
     """Return what becomes of a copy that was asked for; an empty text if none was."""
     if upkeep.busy:
@@ -302,6 +307,8 @@ WORDS = (
     "console-names-hide",
     "console-test-the-voice",
     "console-close",
+    "console-paused",
+    "console-on-break",
     "console-cancel",
     "console-key-delete",
     "console-key-enter",

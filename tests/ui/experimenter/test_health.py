@@ -20,6 +20,7 @@ from tests.samples import CATALOGUES
 
 STUDY = read_study(Settings())
 CHANGED = "another voice pack than in earlier sessions"
+FAULT = Health(is_ok=False, message="it is gone")
 NOW = 1_800_000_000_000
 MINUTE, HOUR = 60_000, 3_600_000
 WELL = HealthInputs(
@@ -73,7 +74,7 @@ def test_every_deviation_has_a_line_in_every_language(language: str) -> None:
 @pytest.mark.parametrize(
     ("state", "name", "words"),
     [
-        (replace(WELL, robot=Health(is_ok=False, message="it is gone")), "Robot", "it is gone"),
+        (replace(WELL, robot=FAULT), "Robot", "it is gone"),
         (replace(WELL, voice=Health(is_ok=False, message="no voice")), "Voice", "no voice"),
         (replace(WELL, muted=True), "Voice", "silent on purpose"),
         (
@@ -102,7 +103,9 @@ def test_every_deviation_has_a_line_in_every_language(language: str) -> None:
     ],
 )
 def test_what_is_not_well_is_told_and_named_in_one_line(state: HealthInputs, name: str, words: str) -> None:
-    assert replace(told(state)[name], remedy="", command="", action="") == HealthLine(name, words, is_ok=False)
+    assert replace(told(state)[name], remedy="", command="", action="", button="") == HealthLine(
+        name, words, is_ok=False
+    )
     assert [line.name for line in every_line(state, CATALOGUES["en"]) if not line.is_ok] == [name]
 
 
@@ -120,18 +123,27 @@ def test_the_last_copy_is_told_in_the_size_that_matters(minutes: int, words: str
     [
         (replace(WELL, has_pin=False), "PIN", "Set one before you open", "recollect study set-pin"),
         (replace(WELL, supervised=False), "Supervisor", "Start the kiosk with one", "recollect run --supervise"),
-        (replace(WELL, muted=True), "Voice", "Turn the sound on", ""),
-        (replace(WELL, pack_changed=True), "Voice", "See which ones", "recollect verify"),
+        (replace(WELL, muted=True), "Voice", "Visitors can only read what the helper says", ""),
+        (replace(WELL, voice=FAULT), "Voice", "Check the loudspeaker and the sound settings", ""),
+        (replace(WELL, robot=FAULT), "Robot", "Check its power and the network; the avatar helps meanwhile", ""),
+        (replace(WELL, pack_changed=True), "Voice", "See in which sessions", "recollect verify"),
+        (replace(WELL, free_space=None), "Disk", "Check that the data folder can be read", ""),
         (replace(WELL, free_space=FreeSpace(300)), "Disk", "Make room this evening", ""),
         (replace(WELL, free_space=FreeSpace(3)), "Disk", "Make room now", ""),
         (replace(WELL, clocks=Clocks(NOW, NOW, 0, NOW + 2 * HOUR)), "Clock", "Set the clock", ""),
+        (replace(WELL, clocks=Clocks(NOW, NOW - HOUR, 0, 0)), "Clock", "Check that the time is right", ""),
+        (replace(WELL, last_backup=None), "Database", "A copy protects the data", ""),
+        (replace(WELL, last_backup=BackupOutcome(NOW, None, "no room")), "Database", "Mend that, then try again", ""),
+        (replace(WELL, audit_error="read-only"), "Database", "Check the disk and its permissions", ""),
+        (replace(WELL, remote="refused"), "From afar", "Check the network and the broker", ""),
     ],
 )
 def test_what_is_missing_comes_with_what_to_do_about_it(
     state: HealthInputs, name: str, remedy: str, command: str
 ) -> None:
     assert (told(state)[name].remedy, told(state)[name].command) == (remedy, command)
-    assert not told(WELL)[name].remedy + told(WELL)[name].command
+    well = told(replace(WELL, remote=""))[name]
+    assert not well.remedy + well.command
 
 
 def test_the_pin_is_asked_for_before_the_supervisor_that_needs_it() -> None:
@@ -155,7 +167,7 @@ def test_what_is_not_in_use_is_no_fault_and_not_in_order_either(state: HealthInp
 
 def test_a_copy_that_was_never_made_is_no_fault_but_is_to_be_made() -> None:
     database = told(replace(WELL, last_backup=None))["Database"]
-    assert (database.remedy, database.action) == ("Make a copy", Action.BACKUP.value)
+    assert (database.button, database.action) == ("Make a copy", Action.BACKUP.value)
     assert (database.is_ok, database.is_due, database.message) == (True, True, "no copy yet")
     assert not told(WELL)["Database"].is_due
     assert not told(replace(WELL, last_backup=None, copy="after this session"))["Database"].is_due
@@ -175,4 +187,4 @@ def test_what_an_action_answers_has_its_name_and_the_words_of_its_button(
 ) -> None:
     catalogue = CATALOGUES[language]
     lines = [line for line in health_lines(state, catalogue) if line.action]
-    assert [(line.remedy, line.action) for line in lines] == [(catalogue.text(message), action.value)]
+    assert [(line.button, line.action) for line in lines] == [(catalogue.text(message), action.value)]

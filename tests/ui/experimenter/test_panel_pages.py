@@ -5,7 +5,7 @@ All have large letters, and need no scrolling during a session. The first tells 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict
 from itertools import pairwise, product
 from typing import Any
@@ -148,7 +148,7 @@ def busy_day(language: str) -> dict[str, Any]:
             **dict.fromkeys(("condition", "embodiment", "language", "volume", "break", "backup"), ""),
             **dict.fromkeys(("canBeNext", "muted", "named", "staysPaused", "onBreak"), False),
             "underWay": True,
-            "session": told("console-session-paused"),
+            "back": told("console-back", stage="game"),
             "breaks": [{"value": "5", "label": told("console-break-minutes", minutes=5)}],
         },
     }
@@ -222,18 +222,43 @@ def test_the_panel_stays_as_it_is_while_the_visitors_language_is_written_from_ri
     assert places[0] == places[1]
 
 
-def test_the_way_out_is_outlined_and_its_ring_lies_on_its_edge(window: Window) -> None:
-    show(window, "en", WIDE)
-    close = find_item(window.shown.contentItem(), "panel-close")
-    assert close is not None
-    assert close.property("activeFocus")
-    assert not [item for item in of_kind(window.shown.contentItem(), "FocusRing") if lies_in(item, "PanelView")]
+@pytest.mark.parametrize(("size", "language"), in_turn(LAYOUTS))
+def test_the_way_back_is_filled_alone_has_the_keyboard_and_stands_with_the_state(
+    window: Window, language: str, size: tuple[int, int]
+) -> None:
+    show(window, language, size, health=with_the_copy(language))
+    root = window.shown.contentItem()
+    back = find_item(root, "panel-back")
+    assert back is not None
+    assert back.property("activeFocus")
+    assert not [item for item in of_kind(root, "FocusRing") if lies_in(item, "PanelView")]
+    (today,) = of_kind(root, "PanelToday")
+    buttons = [item for item in items(today) if item.property("solid") is not None]
+    assert [item.objectName() for item in buttons if item.property("solid")] == ["panel-back"]
+    assert lies_in(back, "PanelNow")
+    assert words_of(sole(texts(back))) == CATALOGUES[language].text("console-back", stage="game")
     QTest.keyClick(window.shown, Qt.Key.Key_Tab)
     QTest.keyClick(window.shown, Qt.Key.Key_Backtab)
-    assert close.property("activeFocus")
-    (ring,) = (item for item in of_kind(window.shown.contentItem(), "FocusRing") if lies_in(item, "PanelView"))
-    assert not close.property("solid")
-    assert (ring.mapToScene(QPointF()), ring.size()) == (close.mapToScene(QPointF()), close.size())
+    assert back.property("activeFocus")
+    sole(item for item in of_kind(root, "FocusRing") if lies_in(item, "PanelView"))
+
+
+def sole(found: Iterable[QQuickItem]) -> QQuickItem:
+    """Return the one item that was found."""
+    (item,) = found
+    return item
+
+
+@pytest.mark.parametrize("main", ["action-next", "break-end"])
+@pytest.mark.parametrize("size", [WIDE, UPRIGHT])
+def test_what_is_pressed_next_is_filled_in_place_of_the_way_back(
+    window: Window, size: tuple[int, int], main: str
+) -> None:
+    choices = calm_day("en")["choices"] | {"canBeNext": main == "action-next", "onBreak": main == "break-end"}
+    show(window, "en", size, choices=choices)
+    (now,) = of_kind(window.shown.contentItem(), "PanelNow")
+    solid = {item.objectName(): item.property("solid") for item in items(now) if item.property("solid") is not None}
+    assert solid == {main: True, "panel-back": False}
 
 
 def calm_day(language: str) -> dict[str, Any]:
@@ -244,7 +269,8 @@ def calm_day(language: str) -> dict[str, Any]:
         "health": busy["health"] | {"matters": []},
         "today": busy["today"] | {"tiles": busy["today"]["tiles"][:3]},
         "records": busy["records"] | {"listed": False, "cells": [cell], "sessions": busy["records"]["sessions"][:1]},
-        "choices": busy["choices"] | {"underWay": False, "session": ""},
+        "choices": busy["choices"]
+        | {"underWay": False, "back": CATALOGUES[language].text("console-back", stage="attract")},
     }
 
 
@@ -285,7 +311,11 @@ def test_an_upright_page_with_the_next_visitor_to_call_needs_no_scrolling(
 ) -> None:
     busy = busy_day(language)
     health = busy["health"] | {"matters": busy["health"]["matters"][:matters]}
-    choices = busy["choices"] | {"underWay": False, "session": "", "canBeNext": True}
+    choices = busy["choices"] | {
+        "underWay": False,
+        "back": CATALOGUES[language].text("console-back", stage="attract"),
+        "canBeNext": True,
+    }
     show(window, language, UPRIGHT, health=health, choices=choices)
     (today,) = of_kind(window.shown.contentItem(), "PanelToday")
     assert today.height() <= today.property("seen")
@@ -338,9 +368,9 @@ COPY_MISSING = "console-backup-none"
 def with_the_copy(language: str) -> dict[str, Any]:
     """Return the health of a busy day on which a copy is to be made, too."""
     told, health = CATALOGUES[language].text, busy_day(language)["health"]
-    name, remedy = told("console-database"), told("console-backup")
-    copy = HealthLine(name, told(COPY_MISSING), remedy=remedy, action="backup", is_due=True)
-    return dict(health | {"matters": [asdict(copy), *health["matters"]]})
+    name, remedy, button = told("console-database"), told("console-backup-none-remedy"), told("console-backup")
+    copy = HealthLine(name, told(COPY_MISSING), remedy=remedy, action="backup", button=button, is_due=True)
+    return dict(health | {"matters": [*health["matters"], asdict(copy)]})
 
 
 def letters_of(text: QQuickItem) -> int:
@@ -356,16 +386,18 @@ def unit_of(size: tuple[int, int]) -> float:
 
 
 @pytest.mark.parametrize(("listed", "size", "language"), in_turn([False, True], LAYOUTS))
-def test_the_stage_is_the_largest_and_no_word_of_the_first_page_is_small(
+def test_the_pause_is_the_largest_and_no_word_of_the_first_page_is_small(
     window: Window, language: str, size: tuple[int, int], *, listed: bool
 ) -> None:
     day = busy_day(language) if listed else calm_day(language)
     show(window, language, size, **day | {"health": with_the_copy(language), "choices": busy_day(language)["choices"]})
     (today,) = of_kind(window.shown.contentItem(), "PanelToday")
-    stage, *others = sorted(texts(today), key=letters_of, reverse=True)
-    assert words_of(stage) == CATALOGUES[language].text("console-stage-game")
-    assert letters_of(stage) >= int(100 * unit_of(size))
-    assert letters_of(others[0]) < 0.75 * letters_of(stage)
+    state, *others = sorted(texts(today), key=letters_of, reverse=True)
+    assert words_of(state) == CATALOGUES[language].text("console-paused")
+    assert letters_of(state) >= int(100 * unit_of(size))
+    assert letters_of(others[0]) < 0.75 * letters_of(state)
+    (now,) = of_kind(today, "PanelNow")
+    assert words_of(list(texts(now))[1]) == CATALOGUES[language].text("console-stage-game"), "the stage comes second"
     assert letters_of(others[-1]) >= int(27 * unit_of(size))
 
 
@@ -385,44 +417,62 @@ def test_the_state_comes_first_then_what_is_not_well_then_the_actions(window: Wi
 
 
 @pytest.mark.parametrize(("size", "language"), in_turn(LAYOUTS))
-def test_the_button_that_answers_a_matter_is_as_high_as_the_actions_and_stands_there_alone(
+def test_the_button_that_answers_a_matter_stands_there_alone_and_all_answers_have_one_shape(
     window: Window, language: str, size: tuple[int, int]
 ) -> None:
     show(window, language, size, health=with_the_copy(language))
     found = [item for item in items(window.shown.contentItem()) if item.objectName() == "action-backup"]
     assert [lies_in(item, "PanelNotice") for item in found] == [True]
-    assert found[0].height() >= 76 * unit_of(size)
+    assert found[0].height() >= 72 * unit_of(size)
     (notice,) = of_kind(window.shown.contentItem(), "PanelNotice")
-    (message,) = [text for text in texts(notice) if CATALOGUES[language].text(COPY_MISSING) in words_of(text)]
-    assert message.property("lineCount") == 1
-    middles = [item.mapToScene(QPointF(0, item.height() / 2)).y() for item in (message, found[0])]
-    assert middles[0] == pytest.approx(middles[1], abs=ROUNDED)
+    commands = [text for text in texts(notice) if words_of(text).startswith("recollect ")]
+    answers = [*(text.parentItem() for text in commands), found[0]]
+    assert len(answers) == 3
+    places = [(round(item.mapToScene(QPointF()).x()), round(item.width()), round(item.height())) for item in answers]
+    assert len(set(places)) == 1
+    tops = [level(item) for item in answers]
+    assert tops == sorted(tops), "they stand below each other"
+    # Nothing is cut off, wrapped or covered.
+    assert [words_of(text) for text in commands if text.property("lineCount") > 1] == []
+    for text in texts(notice):
+        for answer in answers:
+            if text.parentItem() is not answer and not lies_in(text, "PanelButton"):
+                across = (
+                    text.mapToScene(QPointF(text.property("contentWidth"), 0)).x() <= answer.mapToScene(QPointF()).x()
+                )
+                assert across or level(text) + text.height() <= level(answer) or level(text) >= level(answer)
 
 
 @pytest.mark.parametrize("size", [WIDE, UPRIGHT])
-def test_what_is_to_be_typed_elsewhere_is_quieter_than_what_to_do(window: Window, size: tuple[int, int]) -> None:
+def test_a_command_to_type_elsewhere_is_as_dark_as_what_to_do_and_in_letters_of_one_width(
+    window: Window, size: tuple[int, int]
+) -> None:
     show(window, "en", size)
     (notice,) = of_kind(window.shown.contentItem(), "PanelNotice")
     shown = {words_of(text): text for text in texts(notice)}
     remedy, command = shown["Set one before you open"], shown["recollect study set-pin"]
-    assert command.property("color") != remedy.property("color")
-    # In a column of its own it stands below, otherwise behind.
-    if size == WIDE:
-        assert level(command) > level(remedy)
-    else:
-        assert level(command) == level(remedy)
-        assert command.mapToScene(QPointF()).x() > remedy.mapToScene(QPointF(remedy.width(), 0)).x()
+    assert command.property("color") == remedy.property("color")
+    letters = QFontMetricsF(command.property("font"))
+    assert letters.horizontalAdvance("i") == letters.horizontalAdvance("m")
 
 
-def test_what_is_done_elsewhere_stands_in_two_columns_in_line_with_the_checks(window: Window) -> None:
-    show(window, "en", WIDE, health=with_the_copy("en"))
-    (notice,), (checks,) = (of_kind(window.shown.contentItem(), f"Panel{name}") for name in ("Notice", "Health"))
-    starts = [
-        sorted({round(mark.mapToScene(QPointF()).x()) for mark in of_kind(each, "PanelMark")})
-        for each in (notice, checks)
-    ]
-    assert len(starts[0]) == 2
-    assert starts[0] == pytest.approx(starts[1], abs=ROUNDED)
+@pytest.mark.parametrize("size", LAYOUTS)
+def test_eight_matters_stand_below_each_other_and_their_answers_in_one_column(
+    window: Window, size: tuple[int, int]
+) -> None:
+    health = with_the_copy("en")
+    fault = asdict(
+        HealthLine("Robot", "the robot at 192.168.1.20 does not answer: refused", is_ok=False, remedy="Look")
+    )
+    health["matters"] = [*[fault] * 5, *health["matters"]]
+    show(window, "en", size, health=health)
+    (notice,) = of_kind(window.shown.contentItem(), "PanelNotice")
+    marks = [level(mark) for mark in of_kind(notice, "PanelMark")]
+    assert len(marks) == 8
+    assert marks == sorted(marks)
+    assert [words_of(text) for text in texts(notice) if is_broken(text)] == []
+    bottom = level(notice) + notice.height()
+    assert all(level(text) + text.height() <= bottom for text in texts(notice))
 
 
 @pytest.mark.parametrize(("matters", "listed", "size", "language"), in_turn([0, 2, 3], [False, True], LAYOUTS))
@@ -437,25 +487,32 @@ def test_the_first_page_needs_no_scrolling_while_a_visitor_plays(
     assert today.height() <= today.property("seen")
 
 
-@pytest.mark.parametrize(("copies", "under_way", "language"), in_turn([False, True], [False, True]))
-def test_no_action_of_an_upright_page_has_a_row_alone(
-    window: Window, language: str, *, copies: bool, under_way: bool
+@pytest.mark.parametrize(("copies", "under_way", "size", "language"), in_turn([False, True], [False, True], LAYOUTS))
+def test_actions_are_equal_rows_of_one_list_and_the_last_one_ends_the_session(
+    window: Window, language: str, size: tuple[int, int], *, copies: bool, under_way: bool
 ) -> None:
     busy = busy_day(language)
     health = with_the_copy(language) if copies else busy["health"]
-    show(window, language, UPRIGHT, health=health, choices=busy["choices"] | {"underWay": under_way})
+    breaks = [
+        {"value": str(each), "label": CATALOGUES[language].text("console-break-minutes", minutes=each)}
+        for each in ((5, 10, 15) if under_way else (5, 10, 15, 30))
+    ]
+    show(window, language, size, health=health, choices=busy["choices"] | {"underWay": under_way, "breaks": breaks})
     (actions,) = of_kind(window.shown.contentItem(), "PanelActions")
-    names = ("action-pause", "action-again", "action-backup", "action-mute", "test-voice")
-    found = [item for item in items(actions) if item.objectName() in names]
-    assert len(found) == (3 if under_way else 2) + (not copies)
-    assert len({item.width() for item in found}) == 1
-    rows = [round(level(item)) for item in found]
-    assert min(rows.count(row) for row in rows) >= 2
-    # Its words are not broken, and level with those beside them.
-    assert [words_of(text) for item in found for text in texts(item) if is_broken(text)] == []
-    middles = [level(text) + text.height() / 2 for item in found for text in texts(item)]
-    if len(set(rows)) == 1:
-        assert max(middles) - min(middles) <= ROUNDED
+    rows = [item for item in items(actions) if item.objectName().startswith(("action-", "test-voice"))]
+    assert len(rows) == (3 if under_way else 2) + (not copies)
+    assert len({(item.width(), item.height()) for item in rows}) == 1
+    assert [item.objectName() == "action-end" for item in rows] == [False] * (len(rows) - 1) + [under_way]
+    assert [words_of(text) for text in texts(actions) if is_broken(text)] == []
+    # The answers to when one is back lie between the rows around them, in whole rows.
+    answers = [item for item in items(actions) if item.objectName().startswith("break-")]
+    assert len(answers) == len(breaks)
+    heights = [level(item) for item in answers]
+    assert len(set(map(round, heights))) == (2 if size[0] > size[1] and not under_way else 1)
+    above = [item for item in rows if item.objectName() != "action-end"][-1]
+    assert min(heights) > level(above) + above.height()
+    if under_way:
+        assert max(heights) + answers[0].height() < level(rows[-1])
 
 
 @pytest.mark.parametrize(("size", "language"), in_turn(LAYOUTS))
@@ -463,8 +520,8 @@ def test_checks_stand_in_two_columns_equally_far_apart(window: Window, language:
     lines = busy_day(language)["health"]["lines"] * 2
     show(window, language, size, health={"matters": [], "lines": lines[:6], "more": []})
     (checks,) = of_kind(window.shown.contentItem(), "PanelHealth")
-    # The last one stands before the heading.
-    marks = of_kind(checks, "PanelMark")[:6]
+    # The first one stands before the heading.
+    marks = of_kind(checks, "PanelMark")[1:]
     assert len({round(mark.mapToScene(QPointF()).x()) for mark in marks}) == 2
     rows = sorted({round(level(mark)) for mark in marks})
     steps = [after - before for before, after in pairwise(rows)]

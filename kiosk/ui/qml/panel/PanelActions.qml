@@ -1,4 +1,4 @@
-// What can be done at once: what is done all day first, then a break, and apart at the foot what ends a session.
+// What can be done at once, as one list: what is done all day first, then a break, and last what ends a session.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -11,71 +11,70 @@ Column {
     required property bool wide
     // The actions whose buttons stand elsewhere, as they answer what is not well.
     required property var answered
-    // How large their words are where they fit, and how high the column is at least.
+    // How large their words are where they fit, and how high the list is at least.
     required property real size
     property real least: 0
     readonly property var words: panel.words
     readonly property var choices: panel.choices
     readonly property bool normal: Theme.textSize <= 1.15
     readonly property bool underWay: choices.underWay
-    readonly property bool pausing: choices.onBreak ?? false
     readonly property var offered: choices.breaks ?? []
+    readonly property var named: [words[underWay ? "console-repeat" : "console-test-the-voice"], ...(has("backup") ? [words["console-backup"]] : []), ...(has("mute") ? [words[choices.muted ? "console-heard" : "console-mute"]] : [])].map(each => each ?? "")
 
     // Whole pixels, so that all rows end in line.
-    readonly property real space: Math.round((wide ? 12 : 16) * Theme.unit)
     readonly property real across: Math.floor(width)
-    readonly property real edge: (wide ? 26 : 20) * Theme.unit
+    readonly property real edge: Math.round(1.4 * Theme.gap)
     readonly property real lettering: lettered(size)
-    // What stands side by side on an upright page: all in one row, each below its drawing, where their words have the room.
-    readonly property var named: [...(underWay ? ["console-stay-paused", "console-repeat"] : ["console-test-the-voice"]), ...(has("backup") ? ["console-backup"] : []), ...(has("mute") ? [choices.muted ? "console-heard" : "console-mute"] : [])].map(name => words[name] ?? "")
-    readonly property int columns: wide ? 1 : !normal ? (named.length % 2 === 0 ? 2 : 1) : named.length === 4 && !narrow(4) ? 2 : named.length
-    readonly property bool stacked: !wide && columns > 2
-    readonly property real each: Math.floor((across - (columns - 1) * space) / columns)
+    readonly property real lowest: (wide ? 72 : 88) * Theme.unit
+    readonly property int rows: named.length + (underWay ? 1 : 0) + (offered.length > 0 ? 1 : 0)
+    readonly property real tall: Math.max(low(lettering), Math.min(normal ? 4.8 * lettering : 0, Math.floor((least - beyond(lettering) - (rows - 1) * spacing) / rows)))
+    // The row of the break has its sign before its title, as the others have.
+    readonly property real start: startOf(lettering)
 
-    // How high the rows are: a column beside the rest of the page is filled.
-    readonly property int mains: (pausing ? 1 : 0) + (choices.canBeNext ? 1 : 0)
-    readonly property int rows: Math.ceil(named.length / columns)
-    readonly property real lowest: (wide ? 68 : 84) * Theme.unit
-    readonly property real parted: Math.round((wide ? 22 : 14) * Theme.unit)
-    readonly property int breakRows: offered.length === 0 ? 0 : wide ? Math.ceil(offered.length / breaks.across) : 1
-    readonly property real headed: wide && offered.length > 0 ? Math.ceil(1.4 * lettering * wordWidths.plainLines(words["console-break"] ?? "", lettering, across)) + breaks.spacing : 0
-    readonly property int lines: rows + breakRows + (underWay ? 1 : 0)
-    readonly property real share: least > 0 && normal ? (least - fixed(headed)) / (lines + 1.2 * mains) : 0
-    readonly property real tall: Math.floor(Math.max(lowest, Math.min(120 * Theme.unit, share)))
-    // What a column has left parts the end of a session from the rest.
-    readonly property real over: wide && underWay && normal ? Math.max(0, Math.floor(least - fixed(headed) - lines * tall - mains * mainTall)) : 0
-    readonly property real mainTall: Math.floor(1.2 * tall)
-    readonly property real tileTall: Math.max(tall, Math.round(tiled(lettering)))
-
-    // All words have one line in a column, where that does not make them small.
+    // All words have one line, where that does not make them small. On an upright page they have the room to be larger
+    // than those of the notice.
     function lettered(size: real): real {
         if (!normal)
             return size
-        const room = (wide ? across : across / 2) - 2 * edge
-        const needs = [...named.map((text, at) => wordWidths.plain(text, 1) + (at === 0 && underWay && wide ? 1 : 0)), wordWidths.bold(words["console-abort"] ?? "", 1)].map(each => each + 2.1)
-        const fits = Math.min(...needs.map((each, at) => (room - (at === 0 && underWay ? 96 * Theme.unit : 0)) / (each + 0.2)))
-        return Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(size, fits)))
+        const most = (wide ? 1 : 1.2) * size
+        const room = across - 2 * edge
+        const needs = [...named.map(text => wordWidths.plain(text, 1)), wordWidths.bold(words["console-abort"] ?? "", 1)].map(each => each + 2.1)
+        return Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(most, ...needs.map(each => room / (each + 0.2)))))
     }
-    // Whether so many beside each other have the room for their longest words, if they are large.
-    function narrow(many: int): bool {
-        const room = (across - (many - 1) * space) / many - 2 * 14 * Theme.unit
-        return named.every(text => text.split(" ").every(word => wordWidths.bold(word, 36 * Theme.unit) < room))
+    function startOf(size: real): real {
+        return edge + 2.05 * size
     }
-    // How high a button with its drawing above its words is.
-    function tiled(size: real): real {
-        const room = (across - (columns - 1) * space) / columns - 2 * 14 * Theme.unit
-        return stacked ? 2.2 * size + 1.4 * size * Math.max(...named.map(text => wordWidths.plainLines(text, size, room))) + 44 * Theme.unit : 0
+    function low(size: real): real {
+        return Math.ceil(Math.max(lowest, 1.4 * size + 18 * Theme.unit))
     }
-    function fixed(headed: real): real {
-        return (rows + (breakRows > 0 ? 1 : 0) + (underWay ? 1 : 0) + mains - 1) * space + Math.max(0, breakRows - 1) * breaks.between + headed + (underWay ? parted : 0)
+    // How much higher than the others the row of the break is, whose title stands above its answers in a column.
+    function beyond(size: real): real {
+        if (offered.length === 0)
+            return 0
+        if (!wide)
+            return isWhole(size) ? 0 : Math.ceil(Math.max(0, 2.6 * size + 24 * Theme.unit - low(size)))
+        const many = Math.ceil(offered.length / besides()), title = wordWidths.plainLines(words["console-break"] ?? "", size, across - startOf(size) - edge)
+        return Math.ceil(Math.max(0, 1.4 * size * title + 8 * Theme.unit + many * (answer(size) + between) - between + 32 * Theme.unit - low(size)))
+    }
+    // Whether the title of the break has one line beside its answers, on an upright page.
+    function isWhole(size: real): bool {
+        const widest = Math.max(0, ...offered.map(option => wordWidths.bold(option.label, size)))
+        return 1.02 * wordWidths.plain(words["console-break"] ?? "", size) + Theme.gap + offered.length * (widest + 60 * Theme.unit) <= across - startOf(size) - edge
+    }
+    // How high an answer is, how far from the next, and how many stand in a row: four have two rows in a column.
+    function answer(size: real): real {
+        return Math.max(64 * Theme.unit, 1.4 * size + 18 * Theme.unit)
+    }
+    readonly property real between: Math.round(10 * Theme.unit)
+    function besides(): int {
+        return wide && offered.length > 3 ? 2 : Math.max(1, offered.length)
     }
     // How high they are at least if their words are written so large.
     function deep(size: real): real {
         const letters = lettered(size)
-        const headed = wide && offered.length > 0 ? Math.ceil(1.4 * letters * wordWidths.plainLines(words["console-break"] ?? "", letters, across)) + breaks.spacing : 0
-        const low = Math.max(lowest, 1.4 * letters + 18 * Theme.unit)
-        return Math.ceil(fixed(headed) + (stacked ? rows * Math.max(low, tiled(letters)) + (lines - rows) * low : lines * low) + 1.2 * mains * low)
+        return Math.ceil(rows * low(letters) + beyond(letters) + (rows - 1) * spacing)
     }
+
     // Whether the button of an action stands here.
     function has(action: string): bool {
         return !answered.includes(action)
@@ -89,122 +88,97 @@ Column {
         id: wordWidths
     }
 
-    spacing: space
+    spacing: Math.round(12 * Theme.unit)
+    Accessible.role: Accessible.Grouping
+    Accessible.name: words["console-actions"]
 
-    // The largest: what is pressed all day.
-    component Main: PanelButton {
-        least: actions.mainTall
+    component Action: PanelRow {
+        least: actions.tall
         width: actions.across
-        font.pixelSize: 1.12 * actions.lettering
-    }
-    component Action: PanelButton {
-        least: actions.stacked ? actions.tileTall : actions.tall
-        width: actions.each
-        stacked: actions.stacked
-        ground: Theme.white
-        horizontalPadding: stacked ? 14 * Theme.unit : actions.edge
+        horizontalPadding: actions.edge
         font.pixelSize: actions.lettering
     }
 
-    Main {
-        objectName: "break-end"
-        filled: true
-        visible: actions.pausing
-        words: actions.words["console-break-end"]
-        drawing: "M8 5 L19 12 L8 19 Z"
-        onClicked: actions.panel.wish("break", "")
+    // While a visitor is there, the voice is theirs.
+    Action {
+        objectName: "test-voice"
+        visible: !actions.underWay
+        enabled: !actions.choices.muted
+        words: actions.words["console-test-the-voice"]
+        drawing: "M3.5 4.5 H20.5 V16 H11.5 L7 20.5 V16 H3.5 Z"
+        onClicked: actions.panel.wish("test_voice", "")
     }
-    Main {
-        objectName: "action-next"
-        filled: !actions.pausing
-        visible: actions.choices.canBeNext
-        words: actions.words["console-next"]
-        drawing: "M4 12 H20 M13.5 5.5 L20 12 L13.5 18.5"
-        onClicked: actions.panel.wish("next", "")
+    Action {
+        objectName: "action-again"
+        visible: actions.underWay
+        words: actions.words["console-repeat"]
+        drawing: "M19.5 12 A7.5 7.5 0 1 1 16.6 6.1 M17.5 2 V6.8 H12.7"
+        onClicked: actions.panel.wish("repeat", "")
     }
-    Grid {
-        columns: actions.columns
-        spacing: actions.space
-        // While a visitor is there, the voice is theirs.
-        Action {
-            objectName: "test-voice"
-            visible: !actions.underWay
-            enabled: !actions.choices.muted
-            words: actions.words["console-test-the-voice"]
-            drawing: "M3.5 4.5 H20.5 V16 H11.5 L7 20.5 V16 H3.5 Z"
-            onClicked: actions.panel.wish("test_voice", "")
-        }
-        PanelSwitch {
-            objectName: "action-pause"
-            visible: actions.underWay
-            least: actions.stacked ? actions.tileTall : actions.tall
-            width: actions.each
-            stacked: actions.stacked
-            ground: Theme.white
-            horizontalPadding: stacked ? 14 * Theme.unit : actions.edge
-            font.pixelSize: actions.lettering
-            words: actions.words["console-stay-paused"]
-            whenOn: actions.words["console-switch-on"]
-            whenOff: actions.words["console-switch-off"]
-            drawing: "M8.5 5 V19 M15.5 5 V19"
-            on: actions.choices.staysPaused
-            onClicked: actions.panel.wish("pause", "")
-        }
-        Action {
-            objectName: "action-again"
-            visible: actions.underWay
-            words: actions.words["console-repeat"]
-            drawing: "M19.5 12 A7.5 7.5 0 1 1 16.6 6.1 M17.5 2 V6.8 H12.7"
-            onClicked: actions.panel.wish("repeat", "")
-        }
-        // Why a copy has to wait may take two lines.
-        Action {
-            id: backup
-            objectName: "action-backup"
-            visible: actions.has("backup")
-            enabled: actions.choices.backup === ""
-            words: actions.words["console-backup"] + (enabled ? "" : ": " + actions.choices.backup)
-            drawing: "M8.5 8 H20 V21 H8.5 Z M5 16 H4 V3 H15.5 V4.5"
-            onClicked: actions.panel.wish("backup", "")
-        }
-        Action {
-            id: mute
-            objectName: "action-mute"
-            visible: actions.has("mute")
-            words: actions.choices.muted ? actions.words["console-heard"] : actions.words["console-mute"]
-            drawing: "M3 9.5 H7 L12.5 5 V19 L7 14.5 H3 Z " + (actions.choices.muted ? "M16 9 A4.5 4.5 0 0 1 16 15 M18.8 6.2 A8.5 8.5 0 0 1 18.8 17.8" : "M16.5 9.5 L21.5 14.5 M21.5 9.5 L16.5 14.5")
-            onClicked: actions.panel.wish("mute", "")
-        }
+    Action {
+        id: mute
+        objectName: "action-mute"
+        visible: actions.has("mute")
+        words: actions.choices.muted ? actions.words["console-heard"] : actions.words["console-mute"]
+        drawing: "M3 9.5 H7 L12.5 5 V19 L7 14.5 H3 Z " + (actions.choices.muted ? "M16 9 A4.5 4.5 0 0 1 16 15 M18.8 6.2 A8.5 8.5 0 0 1 18.8 17.8" : "M16.5 9.5 L21.5 14.5 M21.5 9.5 L16.5 14.5")
+        onClicked: actions.panel.wish("mute", "")
     }
-    // On an upright page its title stands beside its answers.
-    Row {
+    // Why a copy has to wait may take two lines.
+    Action {
+        id: backup
+        objectName: "action-backup"
+        visible: actions.has("backup")
+        enabled: actions.choices.backup === ""
+        words: actions.words["console-backup"] + (enabled ? "" : ": " + actions.choices.backup)
+        drawing: "M8.5 8 H20 V21 H8.5 Z M5 16 H4 V3 H15.5 V4.5"
+        onClicked: actions.panel.wish("backup", "")
+    }
+    Rectangle {
+        id: pause
+        readonly property real sign: 1.45 * actions.lettering
+        readonly property real room: actions.across - actions.start - actions.edge
+        // In one line, where that leaves the answers beside it the room.
+        readonly property real whole: Math.ceil(1.02 * wordWidths.plain(asked.text, actions.lettering))
+        readonly property real widest: Math.max(0, ...actions.offered.map(option => wordWidths.bold(option.label, actions.lettering)))
+        readonly property real beside: actions.isWhole(actions.lettering) ? whole : Math.ceil(0.62 * whole)
         visible: actions.offered.length > 0
-        spacing: actions.space
+        width: actions.across
+        height: actions.tall + actions.beyond(actions.lettering)
+        radius: Theme.radius
+        color: Theme.touchable
+        border { color: Theme.highContrast ? Theme.edge : "transparent"; width: 2 * Theme.unit }
+        Drawing {
+            x: actions.edge + (pause.sign - width) / 2
+            y: asked.y + (asked.height - height) / 2
+            scale: pause.sign / 24
+            path: "M12 3.5 A8.5 8.5 0 1 1 11.99 3.5 M12 7.5 V12.3 L15.2 14.2"
+            ink: Theme.sea
+        }
         Balanced {
             id: asked
-            // In one line, where that leaves the answers the room.
-            readonly property real whole: Math.ceil(1.02 * wordWidths.plain(text, font.pixelSize)) + actions.space
-            visible: !actions.wide
-            width: whole + actions.offered.length * (170 * Theme.unit + actions.space) <= actions.across ? whole : Math.ceil(0.66 * whole)
+            x: actions.start
+            y: actions.wide ? Math.floor((pause.height - height - 8 * Theme.unit - breaks.height) / 2 - 0.1 * actions.lettering) : Math.floor((pause.height - height) / 2)
+            width: actions.wide ? pause.room : pause.beside
             horizontalAlignment: Text.AlignLeft
-            anchors.verticalCenter: parent.verticalCenter
+            lineHeight: actions.wide ? 1 : 0.9
             text: breaks.title
             font.pixelSize: actions.lettering
-            color: Theme.ink
-            wrapMode: Text.Wrap
+            color: Theme.sea
         }
         PanelChoice {
             id: breaks
-            width: actions.wide ? actions.across : Math.floor(actions.across - asked.width - actions.space)
+            x: actions.wide ? actions.start : actions.start + pause.beside + Theme.gap
+            y: actions.wide ? asked.y + asked.height + 8 * Theme.unit : Math.floor((pause.height - height) / 2)
+            width: actions.across - actions.edge - x
             action: "break"
-            titled: actions.wide
+            titled: false
             even: true
-            // Four in one row of a column would have smaller letters only.
-            across: actions.wide && options.length > 3 ? 2 : Math.max(1, options.length)
-            between: actions.space
-            least: actions.tall
+            across: actions.besides()
+            between: actions.between
+            least: actions.answer(actions.lettering)
             size: actions.lettering
-            lettering: actions.lettering
+            // A little smaller where that keeps them in their row.
+            lettering: Math.floor(actions.lettering * Math.min(1, (each - 20 * Theme.unit) / Math.max(1, pause.widest)))
             ground: Theme.white
             title: actions.words["console-break"]
             options: actions.offered
@@ -212,25 +186,13 @@ Column {
             onPicked: value => actions.panel.wish("break", value)
         }
     }
-    // Apart, at the foot: it takes a game from a visitor.
-    Column {
+    // Last: it takes a game from a visitor.
+    Action {
+        objectName: "action-end"
         visible: actions.underWay
-        Item {
-            width: actions.across
-            height: actions.parted + actions.over
-        }
-        PanelButton {
-            objectName: "action-end"
-            width: actions.across
-            least: actions.tall
-            grave: true
-            centred: !actions.wide
-            ground: Theme.white
-            horizontalPadding: actions.edge
-            font.pixelSize: actions.lettering
-            words: actions.words["console-abort"]
-            drawing: "M12.5 4 H4.5 V20 H12.5 M9.5 12 H21 M16.5 7.5 L21 12 L16.5 16.5"
-            onClicked: actions.panel.wish("abort", "")
-        }
+        grave: true
+        words: actions.words["console-abort"]
+        drawing: "M12.5 4 H4.5 V20 H12.5 M9.5 12 H21 M16.5 7.5 L21 12 L16.5 16.5"
+        onClicked: actions.panel.wish("abort", "")
     }
 }

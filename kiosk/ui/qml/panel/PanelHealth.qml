@@ -1,4 +1,4 @@
-// How everything is that is well, in two columns; the notice tells the rest. Without a notice its heading says that all is well.
+// The day in numbers, and below it how everything is that is well; the notice tells the rest. Quieter than all else.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -15,91 +15,92 @@ PanelSection {
     readonly property int columns: Theme.textSize > 1.15 || lines.length < 2 ? 1 : 2
     readonly property int rows: Math.ceil(lines.length / columns)
     readonly property real gutter: Math.round(1.6 * Theme.gap)
-    readonly property real told: 0.94 * size
+    readonly property real told: 0.9 * size
+    readonly property real room: width - 2 * inset
 
     // How high it may be: what it has left is shared among its rows, as long as they still stand together.
     property real most: 0
-    readonly property real spare: Math.max(0, Math.min(limit, (most - bare(size)) / Math.max(1, rows)))
-    readonly property real limit: (Theme.upright ? 5 : 8) * Theme.gap
+    readonly property real spare: Math.max(0, Math.min(limit, (most - bare(size)) / (rows + (allWell ? 1.5 : 1))))
+    readonly property real limit: (Theme.upright ? 2 : 3) * Theme.gap
+    readonly property real step: 10 * Theme.unit
     function column(width: real): real {
         return Math.floor((width - 2 * inset - (columns - 1) * gutter) / columns)
     }
+    function naming(size: real): real {
+        return Math.min(0.55 * column(width), 1.02 * Math.max(0, ...lines.map(line => wordWidths.bold(line.name, 0.9 * size))) + 0.3 * size)
+    }
     // How high each row is where nothing is left.
     function row(at: int, size: real): real {
-        const room = column(width) - 1.7 * size
-        const each = lines.slice(at * columns, (at + 1) * columns).map(line => wordWidths.plainLines(line.message, 0.94 * size, room))
-        return Math.ceil(1.4 * size) + Math.max(1, ...each) * Math.ceil(1.4 * 0.94 * size)
+        const room = column(width) - 1.25 * 0.9 * size - naming(size) - 2 * step
+        const each = lines.slice(at * columns, (at + 1) * columns).map(line => wordWidths.plainLines(line.message, 0.9 * size, room))
+        return Math.max(1, ...each) * Math.ceil(1.4 * 0.9 * size)
     }
     function bare(size: real): real {
-        let sum = edges + (allWell ? Math.ceil(1.4 * 1.3 * size) : 0) + (rows - 1) * 10 * Theme.unit
+        const numbers = day.deep(size, room)
+        let sum = edges + (numbers > 0 ? numbers + 2 * parting + 2 * Theme.unit : 0) + (allWell ? Math.ceil(1.4 * 1.2 * size) + step : 0) + (rows - 1) * step
         for (let at = 0; at < rows; at++)
             sum += row(at, size)
         return Math.ceil(sum)
     }
+    readonly property real parting: 0.6 * Theme.gap
     WordWidths {
         id: wordWidths
     }
 
-    title: allWell ? words["console-all-well"] : ""
-    heightened: 1.3
+    title: ""
     Accessible.role: Accessible.Grouping
     Accessible.name: words["console-health"]
     // Its marks stand below those of the notice.
     inset: Math.round(1.4 * Theme.gap)
-    indent: allWell ? 1.7 * size : 0
     visible: lines.length > 0
     least: spare < limit ? most : 0
-    apart: 10 * Theme.unit + spare
+    apart: 0
 
-    PanelMark {
-        parent: health
-        visible: health.allWell
-        x: health.inset
-        y: health.above + (1.3 - 1) * 0.68 * health.size
-        well: true
-        grown: 1.3
+    PanelDay {
+        id: day
+        width: parent.width
+        panel: health.panel
         size: health.size
+    }
+    Item {
+        visible: day.visible
+        width: parent.width
+        height: 2 * health.parting + 2 * Theme.unit + health.spare
+        Rectangle {
+            y: Math.floor((parent.height - height) / 2)
+            width: parent.width
+            height: 2 * Theme.unit
+            color: Theme.edge
+        }
+    }
+    Row {
+        visible: health.allWell
+        bottomPadding: health.step + 0.5 * health.spare
+        PanelMark {
+            width: 1.7 * health.size
+            well: true
+            grown: 1.3
+            size: 1.2 * health.size
+        }
+        PlainText {
+            text: health.words["console-all-well"]
+            font { pixelSize: 1.2 * health.size; bold: true }
+        }
     }
     Grid {
         width: parent.width
-        topPadding: 0.5 * health.spare
-        bottomPadding: 0.5 * health.spare
         columns: health.columns
         columnSpacing: health.gutter
-        rowSpacing: health.apart
+        rowSpacing: health.step + health.spare
         Repeater {
             model: health.lines
-            delegate: Row {
-                id: line
+            delegate: PanelLine {
                 required property var modelData
+                line: modelData
+                words: health.words
                 width: health.column(health.width)
-                PanelMark {
-                    id: mark
-                    width: 1.7 * health.size
-                    idle: !line.modelData.is_used
-                    well: line.modelData.is_ok
-                    grown: 1.3
-                    size: health.size
-                    words: health.words[!well ? "console-mark-ill" : idle ? "console-mark-idle" : "console-mark-well"]
-                }
-                Column {
-                    width: parent.width - mark.width
-                    PlainText {
-                        width: parent.width
-                        text: line.modelData.name
-                        font { pixelSize: health.size; bold: true }
-                        color: Theme.ink
-                        wrapMode: Text.Wrap
-                    }
-                    Balanced {
-                        width: parent.width
-                        text: line.modelData.message
-                        font.pixelSize: health.told
-                        color: Theme.faintInk
-                        horizontalAlignment: Text.AlignLeft
-                        least: 0.2
-                    }
-                }
+                size: health.told
+                named: health.naming(health.size)
             }
         }
     }

@@ -67,7 +67,8 @@ Item {
         }), words["console-booth"], wide ? crown : 0)
         const keys = Math.max(0, ...panel.shortcuts.rows.map(row => wordWidths.bold(row.keys, size)))
         const told = panel.shortcuts.rows.map(row => wordWidths.plainLines(row.words, size, (width - Theme.gap) / 2 - keys - 16 * Theme.unit))
-        const known = told.length > 0 ? listed(told.filter((_, at) => at % 2 === 0).map((each, at) => Math.max(each, told[2 * at + 1] ?? 0)), panel.shortcuts.title, 0) + space : 0
+        const around = wordWidths.plainLines(words["console-keys"], size, width)
+        const known = panel.shortcuts.title === "" ? 0 : listed([...told.filter((_, at) => at % 2 === 0).map((each, at) => Math.max(each, told[2 * at + 1] ?? 0)), around], panel.shortcuts.title, 0) + space
         const after = booth + space + known + Math.max(tall(close), 1.45 * size + 18 * Theme.unit)
         const before = chosen
         return Math.ceil(wide ? Math.max(before, after) : before + space + after)
@@ -163,7 +164,7 @@ Item {
                 delegate: PanelLine { required property var modelData; line: modelData; words: next.words; width: parent.width; size: next.size }
             }
         }
-        PanelShortcuts { width: parent.width; shown: next.panel.shortcuts; size: next.size }
+        PanelShortcuts { width: parent.width; shown: next.panel.shortcuts; keys: next.words["console-keys"]; size: next.size }
         // Apart from what is pressed all day.
         PanelButton {
             objectName: "action-leave"

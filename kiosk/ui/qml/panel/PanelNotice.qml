@@ -1,4 +1,5 @@
-// Everything that is to be done: a row for each matter, with what to do about it below, or the button that does it beside it.
+// Everything that is to be done, in rows of one shape: what is the matter, what to do, and at the end the button that
+// does it or the command to type elsewhere.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -13,17 +14,19 @@ Rectangle {
     // The actions that answer one of them: their buttons stand here, and not among the others.
     readonly property var answered: matters.map(matter => matter.action ?? "").filter(action => action !== "")
     readonly property var rest: matters.filter(matter => !matter.action)
-    // In line with those of the checks below.
-    readonly property int columns: columnsOf(size)
-    readonly property real gutter: Math.round(1.6 * Theme.gap)
     // The bar at its edge has the colour that warns; the ground is pale.
     readonly property real bar: 14 * Theme.unit
     readonly property real inset: Math.round(1.4 * Theme.gap)
+    readonly property real across: width - 2 * inset
     readonly property real mark: 1.7 * size
-    readonly property real between: 18 * Theme.unit
+    readonly property real above: Math.round(0.5 * Theme.gap)
+    readonly property real between: Math.round(0.5 * Theme.gap)
     readonly property real answer: 0.94 * size
-    // As high as the other buttons of the page.
-    readonly property real least: (Theme.upright ? 84 : 76) * Theme.unit
+    readonly property real typed: Math.max(27 * Theme.unit, 0.84 * size)
+    readonly property real least: (Theme.upright ? 80 : 72) * Theme.unit
+    // All answers are as wide as the widest, and stand at the end of their rows, or all of them below.
+    readonly property real answering: answeringOf(size)
+    readonly property bool aside: asides(size)
     readonly property var signs: ({
         backup: "M8.5 8 H20 V21 H8.5 Z M5 16 H4 V3 H15.5 V4.5",
         mute: "M3 9.5 H7 L12.5 5 V19 L7 14.5 H3 Z M16 9 A4.5 4.5 0 0 1 16 15 M18.8 6.2 A8.5 8.5 0 0 1 18.8 17.8"
@@ -32,49 +35,34 @@ Rectangle {
     function said(matter: var): string {
         return `${matter.name}: ${matter.message}`
     }
-    // How wide the button of a matter is.
-    function pressed(matter: var, size: real): real {
-        return matter.action ? wordWidths.bold(matter.remedy, size) + 2.05 * size + 58 * Theme.unit : 0
+    function isAnswered(matter: var): bool {
+        return Boolean(matter.action || matter.command)
     }
-    // What its words have beside that; a button without the room for it stands below them.
-    function aside(matter: var, size: real, room: real): bool {
-        return pressed(matter, size) > 0 && pressed(matter, size) + Math.min(1.02 * wordWidths.bold(said(matter), size), 14 * size) + Theme.gap <= room
+    function answeringOf(size: real): real {
+        const wide = matter => matter.action ? wordWidths.bold(matter.button, size) + 2.05 * size : matter.command ? typeWidths.advanceWidth(matter.command) * 0.01 * Math.max(27 * Theme.unit, 0.84 * size) + 1.5 * size : -1
+        return Math.ceil(Math.max(...matters.map(wide), 0) * 1.01 + (Theme.upright ? 32 : 44) * Theme.unit)
     }
-    // Whether all matters with a button have one line beside it if it is written so large.
+    // What the words of a matter have beside its answer.
+    function beside(matter: var, size: real): real {
+        return across - 1.7 * size - (isAnswered(matter) && asides(size) ? answeringOf(size) + Theme.gap : 0)
+    }
+    function asides(size: real): bool {
+        const room = across - 1.7 * size - answeringOf(size) - Theme.gap
+        return matters.filter(isAnswered).every(matter => Math.min(1.02 * wordWidths.bold(said(matter), size), 12.5 * size) <= room)
+    }
+    // Whether all matters have one line beside their answers if they are written so large.
     function holds(size: real): bool {
-        const room = width - 2 * inset - 1.7 * size
-        return matters.every(matter => !matter.action || pressed(matter, size) + 1.02 * wordWidths.bold(said(matter), size) + Theme.gap <= room)
-    }
-    // What is done elsewhere stands in two columns, where that breaks no line of it.
-    function columnsOf(size: real): int {
-        const room = each(2) - 1.7 * size
-        const fits = matter => 1.02 * Math.max(wordWidths.bold(said(matter), size), wordWidths.plain(matter.remedy, 0.94 * size), wordWidths.plain(matter.command ?? "", 0.94 * size)) <= room
-        return !Theme.upright && rest.length > 1 && rest.every(fits) ? 2 : 1
-    }
-    // How wide each of so many columns is.
-    function each(columns: int): real {
-        return Math.floor((width - 2 * inset - (columns - 1) * gutter) / columns)
+        return asides(size) && matters.filter(isAnswered).every(matter => 1.02 * wordWidths.bold(said(matter), size) <= beside(matter, size))
     }
     // How high it is if it is written so large.
     function deep(size: real): real {
-        const line = each => Math.ceil(1.4 * each), columns = columnsOf(size)
+        const line = each => Math.ceil(1.4 * each), below = !asides(size)
         const high = matter => {
-            const room = (matter.action ? each(1) : each(columns)) - 1.7 * size
-            const beside = aside(matter, size, room), own = beside ? room - pressed(matter, size) - Theme.gap : room
-            const words = wordWidths.lines(said(matter), size, own) * line(size)
-            const told = matter.action || !matter.remedy ? 0 : toldLines(matter, 0.94 * size, own) * line(0.94 * size)
-            const button = matter.action ? Math.max(least, line(size) + 18 * Theme.unit) : 0
-            return beside ? Math.max(button, words) : words + told + button
+            const own = beside(matter, size), answers = isAnswered(matter) ? Math.max(least, line(size) + 18 * Theme.unit) : 0
+            const words = wordWidths.lines(said(matter), size, own) * line(size) + (matter.remedy ? wordWidths.plainLines(matter.remedy, 0.94 * size, own) * line(0.94 * size) : 0)
+            return below ? words + (answers > 0 ? answers + 6 * Theme.unit : 0) : Math.max(answers, words)
         }
-        const rows = matters.filter(matter => matter.action).map(high)
-        for (let at = 0; at < rest.length; at += columns)
-            rows.push(Math.max(...rest.slice(at, at + columns).map(high)))
-        return Math.ceil(rows.reduce((sum, each) => sum + each, 0) + (rows.length - 1) * between + 1.3 * Theme.gap)
-    }
-    function toldLines(matter: var, size: real, room: real): int {
-        const parts = [matter.remedy, matter.command ?? ""].filter(text => text !== "")
-        const whole = parts.reduce((sum, text) => sum + 1.02 * wordWidths.plain(text, size) + 0.7 * size, 0)
-        return whole <= room ? 1 : parts.reduce((sum, text) => sum + wordWidths.plainLines(text, size, room), 0)
+        return Math.ceil(matters.reduce((sum, matter) => sum + high(matter) + 2 * between + 2 * Theme.unit, 0) - 2 * between - 2 * Theme.unit + 2 * above + 2 * between)
     }
     // Give the keyboard to the button of an action, if it stands here.
     function take(action: string): bool {
@@ -85,17 +73,29 @@ Rectangle {
     WordWidths {
         id: wordWidths
     }
+    FontMetrics {
+        id: typeWidths
+        font { family: "monospace"; pixelSize: 100 }
+    }
 
     component Matter: Item {
         id: row
         property var matter: null
+        property bool first: false
         readonly property string action: matter?.action ?? ""
-        readonly property bool aside: matter !== null && notice.aside(matter, notice.size, row.room)
+        readonly property bool answered: matter !== null && notice.isAnswered(matter)
+        readonly property real foot: answered ? reply.height : 0
+        readonly property real room: matter === null ? 0 : notice.beside(matter, notice.size)
         property alias button: button
         visible: matter !== null
-        width: notice.each(1)
-        readonly property real room: width - notice.mark
-        height: aside ? Math.max(words.height, button.height) : words.height + (action === "" ? 0 : button.height + 6 * Theme.unit)
+        width: notice.across
+        height: 2 * notice.between + (notice.aside ? Math.max(words.height, foot) : words.height + (answered ? foot + 6 * Theme.unit : 0))
+        Rectangle {
+            visible: !row.first
+            width: parent.width
+            height: 2 * Theme.unit
+            color: Theme.highContrast ? Theme.edge : Qt.alpha(Theme.amber, 0.55)
+        }
         PanelMark {
             y: words.y
             well: false
@@ -105,8 +105,8 @@ Rectangle {
         Column {
             id: words
             x: notice.mark
-            y: row.aside ? Math.floor((row.height - height) / 2) : 0
-            width: row.aside ? row.room - button.width - Theme.gap : row.room
+            y: notice.aside ? Math.floor((row.height - height) / 2) : notice.between
+            width: row.room
             PlainText {
                 width: parent.width
                 text: row.matter === null ? "" : notice.said(row.matter)
@@ -114,50 +114,64 @@ Rectangle {
                 color: Theme.ink
                 wrapMode: Text.Wrap
             }
-            // What is to be typed elsewhere is quieter than what to do, and stands behind it or below.
-            Grid {
-                visible: row.action === "" && Boolean(row.matter?.remedy)
-                columns: remedy.implicitWidth + columnSpacing + command.implicitWidth <= words.width ? 2 : 1
-                columnSpacing: 0.6 * notice.size
-                PlainText {
-                    id: remedy
-                    width: Math.min(implicitWidth, words.width)
-                    text: row.matter?.remedy ?? ""
-                    font.pixelSize: notice.answer
-                    color: Theme.ink
-                    wrapMode: Text.Wrap
+            PlainText {
+                visible: text !== ""
+                width: parent.width
+                text: row.matter?.remedy ?? ""
+                font.pixelSize: notice.answer
+                color: Theme.ink
+                wrapMode: Text.Wrap
+            }
+        }
+        Item {
+            id: reply
+            x: notice.aside ? row.width - width : notice.mark
+            y: notice.aside ? Math.floor((row.height - height) / 2) : words.y + words.height + 6 * Theme.unit
+            width: Math.min(notice.answering, row.width - (notice.aside ? 0 : notice.mark))
+            height: Math.max(button.visible ? button.height : 0, notice.least)
+            PanelButton {
+                id: button
+                objectName: `action-${row.action}`
+                visible: row.action !== ""
+                width: reply.width
+                enabled: row.action !== "backup" || notice.panel.choices.backup === ""
+                least: notice.least
+                ground: Theme.white
+                horizontalPadding: 16 * Theme.unit
+                words: row.matter?.button ?? ""
+                drawing: notice.signs[row.action] ?? ""
+                font { pixelSize: notice.size; bold: true }
+                onClicked: notice.panel.wish(row.action, "")
+            }
+            // What is to be typed in a terminal.
+            Rectangle {
+                visible: row.answered && row.action === ""
+                anchors.fill: parent
+                radius: 12 * Theme.unit
+                color: Theme.highContrast ? Theme.white : Qt.tint(Theme.cautious, Qt.alpha(Theme.amber, 0.22))
+                border { color: Theme.edge; width: Theme.highContrast ? 2 * Theme.unit : 0 }
+                Drawing {
+                    x: 16 * Theme.unit + (1.2 * notice.size - width) / 2
+                    y: (parent.height - height) / 2
+                    scale: 1.15 * notice.size / 24
+                    path: "M5 6.5 L10.5 12 L5 17.5 M13 18 H20"
+                    ink: Theme.ink
                 }
                 PlainText {
-                    id: command
-                    visible: text !== ""
-                    width: Math.min(implicitWidth, words.width)
+                    x: 16 * Theme.unit + 1.5 * notice.size
+                    y: (parent.height - height) / 2
+                    width: parent.width - x - 10 * Theme.unit
                     text: row.matter?.command ?? ""
-                    font.pixelSize: notice.answer
-                    color: Theme.faintInk
+                    font { family: "monospace"; pixelSize: notice.typed }
+                    color: Theme.ink
                     wrapMode: Text.Wrap
                 }
             }
         }
-        PanelButton {
-            id: button
-            objectName: `action-${row.action}`
-            visible: row.action !== ""
-            x: row.aside ? row.width - width : notice.mark
-            y: row.aside ? Math.floor((row.height - height) / 2) : words.height + 6 * Theme.unit
-            width: Math.min(Math.ceil(implicitWidth), row.room)
-            enabled: row.action !== "backup" || notice.panel.choices.backup === ""
-            least: notice.least
-            filled: true
-            horizontalPadding: 28 * Theme.unit
-            words: row.matter?.remedy ?? ""
-            drawing: notice.signs[row.action] ?? ""
-            font.pixelSize: notice.size
-            onClicked: notice.panel.wish(row.action, "")
-        }
     }
 
     // Whole pixels, so that the cards below it end level with the one beside them.
-    height: Math.ceil(rows.height + 1.3 * Theme.gap)
+    height: Math.ceil(rows.height + 2 * above)
     radius: Theme.radius
     color: Theme.amber
 
@@ -175,30 +189,25 @@ Rectangle {
     Column {
         id: rows
         anchors { left: parent.left; right: parent.right; margins: notice.inset; verticalCenter: parent.verticalCenter }
-        spacing: notice.between
-        // What a finger can do here stands first. Not made anew with the others: the keyboard, or a finger that lies on
-        // one, would lose it.
+        // What has a button is not made anew with the others: the keyboard, or a finger that lies on it, would lose it.
         Matter {
             id: mute
+            first: true
             matter: notice.matters.find(matter => matter.action === "mute") ?? null
+        }
+        Repeater {
+            model: notice.rest
+            delegate: Matter {
+                required property var modelData
+                required property int index
+                first: index === 0 && mute.matter === null
+                matter: modelData
+            }
         }
         Matter {
             id: backup
+            first: notice.matters.length === 1
             matter: notice.matters.find(matter => matter.action === "backup") ?? null
-        }
-        Grid {
-            visible: notice.rest.length > 0
-            columns: notice.columns
-            columnSpacing: notice.gutter
-            rowSpacing: notice.between
-            Repeater {
-                model: notice.rest
-                delegate: Matter {
-                    required property var modelData
-                    matter: modelData
-                    width: notice.each(notice.columns)
-                }
-            }
         }
     }
 }

@@ -1,4 +1,4 @@
-// What is going on now, in the largest letters of the panel, and the day in numbers beside or below it.
+// What is going on now, in the largest letters of the panel, and at its end the way back to it.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -8,176 +8,186 @@ Rectangle {
     id: now
 
     required property PanelScreen panel
-    // How large its words are; the stage and the numbers are larger, as far as they have one line.
+    // How large its words are; the state is larger, as far as it has one line.
     required property real size
-    // How wide the column at the right end of the page is; the numbers begin where it does, if that is enough for them.
+    // How wide the column at the right end of the page is: what is pressed begins where that does. 0 on an upright page.
     property real side: 0
-    readonly property var tiles: panel.today.tiles
-    readonly property var stage: tiles.find(each => each.name === "stage")
-    // Without a target, and before the first game, there is nothing to tell of it.
-    readonly property var shown: tiles.filter(each => each.name !== "stage" && each.value !== "-")
-    readonly property string session: panel.choices.underWay ? panel.choices.session : ""
-    readonly property bool resting: session === ""
+    readonly property var words: panel.words
+    readonly property var choices: panel.choices
+    readonly property var stage: panel.today.tiles.find(each => each.name === "stage")
+    readonly property bool underWay: choices.underWay
+    readonly property bool pausing: choices.onBreak ?? false
+    // Ending the break is the same then.
+    readonly property bool goesOn: !pausing && (choices.canBeNext ?? false)
+    readonly property bool beside: side > 0
     readonly property bool tabled: Theme.textSize <= 1.15
+    // A session is paused for as long as the panel is open; the stage comes second then.
+    readonly property string word: (underWay ? words["console-paused"] : pausing ? words["console-on-break"] : stage?.value) ?? ""
+    readonly property string second: underWay ? stage?.value ?? "" : ""
+    readonly property string told: stage?.line ?? ""
 
     readonly property real inset: Math.round(1.4 * Theme.gap)
-    readonly property real step: Math.round(1.2 * Theme.gap)
-    readonly property real room: width - 2 * inset
-    // A number and its title have one line each beside the stage, or the whole width below it.
-    readonly property bool beside: besides(size)
-    readonly property real numbers: numbersOf(size)
-    readonly property real stageRoom: roomOf(size)
-    readonly property string told: stage?.line ?? ""
-    // Where they have one line, its minutes stand behind the stage, and not behind what is said of the session.
-    readonly property bool behind: behinds(size)
-    readonly property real figure: (tabled ? 3.1 : 2.4) * Theme.dense
-    // Smaller where the stage has a long name, and in two lines only where even small letters do not fit.
-    readonly property real crown: crownOf(size)
-    readonly property real sign: resting ? 0 : Math.round((tabled ? 2.9 : 2.4) * Theme.dense)
-    readonly property real signGap: resting ? 0 : Math.round(1.1 * Theme.gap)
-    readonly property real title: 0.88 * size
-    readonly property real line: 0.82 * size
-    // Each has what it needs, and all of them the same of what is left.
-    readonly property var widths: widthsOf(size)
+    readonly property real above: Math.round((beside ? 0.8 : 1) * Theme.gap)
+    readonly property real space: Math.round((beside ? 8 : 14) * Theme.unit)
+    readonly property real sign: underWay ? Math.round((tabled ? 2.9 : 2.4) * Theme.dense) : 0
+    readonly property real signGap: underWay ? Math.round(1.1 * Theme.gap) : 0
+    readonly property real room: (beside ? width - side - Theme.gap : width - inset) - inset - sign - signGap
+    readonly property real across: Math.floor(beside ? side - inset : width - 2 * inset)
+    // Smaller where the state has a long name, and in two lines only where even small letters do not fit.
+    readonly property real crown: Math.floor(Math.max(2.4 * Theme.dense, Math.min(most, 98 * room / Math.max(1, wordWidths.bold(word, 100)))))
+    readonly property real most: (beside ? 5 : 4.6) * Theme.dense
+    readonly property var pressed: [...(pausing ? [words["console-break-end"]] : []), ...(goesOn ? [words["console-next"]] : []), choices.back].map(each => each ?? "")
+    readonly property real tall: Math.round((beside ? 92 : 108) * Theme.unit)
+    readonly property real low: Math.round((beside ? 64 : 76) * Theme.unit)
+    readonly property real lettering: lettered(size)
+    // The words of the switch are as large as leaves what stands beside its knob the room.
+    readonly property real switched: switchedOf(size)
+    readonly property alias way: back
 
-    function roomOf(size: real): real {
-        return (besides(size) ? room - numbersOf(size) - 2 * step : room) - sign - signGap
+    // All words of its buttons have one line, where that does not make them small.
+    function lettered(size: real): real {
+        const most = (!tabled ? 1 : beside ? 1.15 : 1.3) * size
+        return Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(most, ...pressed.map(text => (across - 50 * Theme.unit) / (wordWidths.bold(text, 1) + 2.3)))))
     }
-    function crownOf(size: real): real {
-        const most = (Theme.upright ? 4.3 : 4.8) * Theme.dense, whole = wordWidths.bold(stage?.value ?? "", 100)
-        return Math.floor(Math.max(0.5 * most, Math.min(most, 98 * roomOf(size) / Math.max(1, whole))))
+    function switchedOf(size: real): real {
+        const state = Math.max(...["console-switch-on", "console-switch-off"].map(name => wordWidths.plain(words[name] ?? "", 1)))
+        const most = (tabled && !beside ? 1.15 : 1) * size
+        return Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(most, (across - 126 * Theme.unit) / (1.02 * wordWidths.plain(words["console-stay-paused"] ?? "", 1) + state))))
     }
-    function leastOfStage(size: real): real {
-        return sign + signGap + step + Math.max(wordWidths.bold(stage?.value ?? "", 2.4 * Theme.dense), wordWidths.plain(session || told, 1.1 * size), 16 * size)
+    // How high the words are, and what is pressed.
+    function saidDeep(size: real): real {
+        const line = each => Math.ceil(1.37 * each)
+        const behind = behinds(size) || second === "" || told === ""
+        return Math.max(sign, 0.92 * line(crown) * wordWidths.lines(word, crown, 1.03 * room) + (behind ? 1 : 2) * line(1.25 * size))
     }
-    // At least a number and its title have one line; a long line below them has two.
-    function least(tile: var, size: real): real {
-        return Math.ceil(1.02 * Math.max(wordWidths.bold(tile.value, figure), wordWidths.plain(tile.title, 0.88 * size)) + 4 * Theme.unit)
-    }
-    function needs(size: real): var {
-        return shown.map(tile => Math.max(least(tile, size), Math.ceil(1.02 * Math.min(12 * size, wordWidths.plain(tile.line, 0.82 * size)) + 4 * Theme.unit)))
-    }
-    function numbered(size: real): real {
-        return needs(size).reduce((sum, each) => sum + each, 0) + (shown.length - 1) * step
-    }
-    function widthsOf(size: real): var {
-        const wishes = needs(size), spare = numbersOf(size) - numbered(size)
-        const leasts = shown.map(tile => least(tile, size)), most = wishes.reduce((sum, each, at) => sum + each - leasts[at], 0)
-        return wishes.map((each, at) => Math.floor(each + (spare >= 0 ? spare / wishes.length : spare * (each - leasts[at]) / Math.max(1, most))))
-    }
-    function besides(size: real): bool {
-        return !Theme.upright && numbered(size) + step + leastOfStage(size) <= room
-    }
-    function numbersOf(size: real): real {
-        return besides(size) ? Math.max(numbered(size), side - inset) : room
+    function pressedDeep(size: real): real {
+        const letters = lettered(size)
+        const button = (text, least) => Math.max(least, 1.4 * letters * wordWidths.lines(text, letters, across - 2.05 * letters - 36 * Theme.unit) + 18 * Theme.unit)
+        const knob = underWay ? Math.max(low, 1.3 * switchedOf(size) * wordWidths.plainLines(words["console-stay-paused"] ?? "", switchedOf(size), across - 88 * Theme.unit) + 18 * Theme.unit) + space : 0
+        return pressed.reduce((sum, text, at) => sum + button(text, at === 0 ? tall : low) + space, -space) + knob
     }
     function behinds(size: real): bool {
-        const crown = crownOf(size)
-        return wordWidths.bold(stage?.value ?? "", crown) * 1.02 + 0.3 * crown + wordWidths.plain(told, 1.1 * size) <= roomOf(size)
+        return second !== "" && wordWidths.bold(second, 1.25 * size) * 1.02 + 0.5 * size + wordWidths.plain(told, 1.25 * size) * 1.02 <= room
     }
     // How high it is if its words are written so large.
     function deep(size: real): real {
-        const line = each => Math.ceil(1.37 * each), widths = widthsOf(size)
-        const below = (behinds(size) ? [] : [told]).concat([session]).filter(text => text !== "")
-        const first = Math.max(sign, 0.92 * line(crownOf(size)) * wordWidths.lines(stage?.value ?? "", crownOf(size), 1.03 * roomOf(size)) + below.length * line(1.1 * size))
-        const second = 0.95 * line(figure) + Math.max(0, ...shown.map((tile, at) => wordWidths.plainLines(tile.title, 0.88 * size, widths[at]) * line(0.88 * size)
-            + (tile.line === "" ? 0 : wordWidths.plainLines(tile.line, 0.82 * size, widths[at]) * line(0.82 * size))))
-        return Math.ceil(1.4 * Theme.gap + 3 + (besides(size) ? Math.max(first, second) : first + (shown.length > 0 ? 1.2 * Theme.gap + second : 0)))
+        const said = saidDeep(size), ways = pressedDeep(size)
+        return Math.ceil(2 * above + (beside ? Math.max(said, ways) : said + Theme.gap + ways))
     }
     WordWidths {
         id: wordWidths
     }
 
-    height: Math.ceil(1.4 * Theme.gap + (beside ? Math.max(state.height, day.height) : state.height + (shown.length > 0 ? 1.2 * Theme.gap + day.height : 0)))
+    height: Math.ceil(2 * above + (beside ? Math.max(said.height, ways.height) : said.height + Theme.gap + ways.height))
     radius: Theme.radius
     color: Theme.stated
     border { color: Theme.highContrast ? Theme.edge : "transparent"; width: 2 * Theme.unit }
 
     // The sign of a pause: two bars, and no disc around them, which would look like a button.
     Drawing {
-        visible: !now.resting
+        visible: now.underWay
         x: now.inset + (now.sign - width) / 2 - 0.14 * now.sign
-        y: state.y + (state.height - height) / 2
+        y: said.y + (said.height - height) / 2
         scale: 1.55 * now.sign / 24
         thick: 3.6
         path: "M8.6 5 V19 M15.4 5 V19"
         ink: Theme.sea
     }
     Item {
-        id: state
+        id: said
         objectName: "today-stage"
         x: now.inset + now.sign + now.signGap
-        y: now.beside ? Math.floor((now.height - height) / 2) : 0.7 * Theme.gap
-        width: now.stageRoom
-        height: Math.max(now.sign, words.height)
+        y: now.beside ? Math.floor((now.height - height) / 2) : now.above
+        width: now.room
+        height: Math.max(now.sign, lines.height)
         Accessible.role: Accessible.Grouping
         Accessible.name: now.stage?.title ?? ""
         Column {
-            id: words
+            id: lines
             // Large letters have more room above them than below.
-            y: Math.floor((parent.height - height) / 2 - 0.07 * now.crown)
+            y: Math.floor((parent.height - height) / 2 - 0.06 * now.crown)
             width: parent.width
             PlainText {
                 width: parent.width
-                text: now.stage?.value ?? ""
+                text: now.word
                 font { pixelSize: now.crown; bold: true }
                 lineHeight: 0.92
                 color: Theme.ink
                 wrapMode: Text.Wrap
+            }
+            Grid {
+                columns: now.behinds(now.size) ? 2 : 1
+                columnSpacing: 0.5 * now.size
                 PlainText {
-                    visible: now.behind
-                    x: parent.implicitWidth + 0.3 * now.crown
-                    y: parent.baselineOffset - baselineOffset
-                    text: now.told
-                    font.pixelSize: 1.1 * now.size
-                    color: Theme.faintInk
+                    visible: text !== ""
+                    width: Math.min(implicitWidth, now.room)
+                    text: now.second
+                    font { pixelSize: 1.25 * now.size; bold: true }
+                    color: Theme.ink
+                    wrapMode: Text.Wrap
                 }
-            }
-            PlainText {
-                visible: !now.behind && text !== ""
-                width: parent.width
-                text: now.told
-                font.pixelSize: 1.1 * now.size
-                color: Theme.faintInk
-                wrapMode: Text.Wrap
-            }
-            PlainText {
-                visible: text !== ""
-                width: parent.width
-                text: now.session
-                font { pixelSize: 1.1 * now.size; bold: true }
-                color: Theme.sea
-                wrapMode: Text.Wrap
+                PlainText {
+                    visible: text !== ""
+                    width: Math.min(implicitWidth, now.room)
+                    text: now.told
+                    font.pixelSize: 1.25 * now.size
+                    color: Theme.faintInk
+                    wrapMode: Text.Wrap
+                }
             }
         }
     }
-    Rectangle {
-        visible: now.shown.length > 0 && !now.beside
-        x: now.inset
-        y: state.y + state.height + 0.6 * Theme.gap
-        width: now.room
-        height: 2 * Theme.unit
-        color: Theme.shy
-    }
-    Row {
-        id: day
-        x: now.beside ? now.width - now.inset - now.numbers : now.inset
-        y: now.beside ? Math.floor((now.height - height) / 2 - 0.05 * now.figure) : state.y + state.height + 1.1 * Theme.gap
-        spacing: now.step
-        Repeater {
-            model: now.shown
-            delegate: PanelTile {
-                required property var modelData
-                required property int index
-                objectName: "today-" + modelData.name
-                width: now.widths[index] ?? 0
-                size: now.figure
-                lettering: now.title
-                lower: now.line
-                title: modelData.title
-                value: modelData.value
-                line: modelData.line
-            }
+    Column {
+        id: ways
+        x: now.beside ? now.width - now.side : now.inset
+        y: now.beside ? Math.floor((now.height - height) / 2) : said.y + said.height + Theme.gap
+        width: now.across
+        spacing: now.space
+
+        component Way: PanelButton {
+            width: now.across
+            least: filled ? now.tall : now.low
+            centred: true
+            ground: "transparent"
+            font.pixelSize: now.lettering
+        }
+        Way {
+            objectName: "break-end"
+            filled: true
+            visible: now.pausing
+            words: now.words["console-break-end"]
+            drawing: "M8 5 L19 12 L8 19 Z"
+            onClicked: now.panel.wish("break", "")
+        }
+        Way {
+            objectName: "action-next"
+            filled: true
+            visible: now.goesOn
+            words: now.words["console-next"]
+            drawing: "M4 12 H20 M13.5 5.5 L20 12 L13.5 18.5"
+            onClicked: now.panel.wish("next", "")
+        }
+        Way {
+            id: back
+            objectName: "panel-back"
+            filled: !now.pausing && !now.goesOn
+            words: now.choices.back ?? ""
+            // Only where it does let the visitor go on.
+            drawing: now.underWay && !now.choices.staysPaused ? "M8 5 L19 12 L8 19 Z" : "M20 12 H4 M10.5 5.5 L4 12 L10.5 18.5"
+            onClicked: now.panel.wish("panel", "")
+        }
+        PanelSwitch {
+            objectName: "action-pause"
+            visible: now.underWay
+            width: now.across
+            least: now.low
+            horizontalPadding: 6 * Theme.unit
+            font.pixelSize: now.switched
+            words: now.words["console-stay-paused"]
+            whenOn: now.words["console-switch-on"]
+            whenOff: now.words["console-switch-off"]
+            on: now.choices.staysPaused
+            onClicked: now.panel.wish("pause", "")
         }
     }
 }

@@ -1,4 +1,4 @@
-// The shortcuts of the study file, for those who do not know them by heart.
+// The shortcuts of the study file, and how the panel is worked by keyboard.
 pragma ComponentBehavior: Bound
 import QtQuick
 import ".."
@@ -8,6 +8,8 @@ PanelSection {
 
     // Its title, and rows of keys and words.
     required property var shown
+    // How to go around in the panel, and when it closes.
+    required property string keys
 
     // All keys are as wide as the widest, so that the words stand below each other.
     readonly property real named: widest(shown.rows, letters.font)
@@ -21,10 +23,11 @@ PanelSection {
     }
 
     title: shown.title
-    visible: shown.rows.length > 0
+    visible: title !== ""
 
     Grid {
         id: table
+        visible: shortcuts.shown.rows.length > 0
         width: parent.width
         columns: 2
         columnSpacing: Theme.gap
@@ -53,5 +56,12 @@ PanelSection {
                 }
             }
         }
+    }
+    PlainText {
+        width: parent.width
+        text: shortcuts.keys
+        font.pixelSize: shortcuts.size
+        color: Theme.faintInk
+        wrapMode: Text.Wrap
     }
 }

@@ -1,4 +1,4 @@
-// The first page: what is going on, then what is not well, then what can be done at once, and what is in order.
+// The first page: what is going on and the way back to it, what is not well, what can be done at once, and the day.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -22,13 +22,12 @@ Item {
     readonly property real side: Math.floor(wide ? width * 0.31 : width)
     readonly property real main: wide ? width - side - space : width
     readonly property real below: now.height + space
-    // On an upright page the checks stand clear of what ends a session.
-    readonly property real after: wide ? space : Math.round(1.8 * space)
+    readonly property alias way: now.way
     readonly property bool warned: notice.matters.length > 0
     readonly property bool allWell: !warned && panel.alarms.every(alarm => !alarm.holds)
     // What a page has left is shared among the rows of its parts.
     readonly property real free: Math.floor(seen - below)
-    readonly property real spread: wide || !tabled ? 0 : Math.max(0, Math.min(0.4 * acting, 0.5 * (free - (warned ? notice.height + space : 0) - acting - after - checked(size))))
+    readonly property real spread: wide || !tabled ? 0 : Math.max(0, Math.min(0.4 * acting, 0.5 * (free - (warned ? notice.height + space : 0) - acting - space - checked(size))))
     readonly property real acting: actions.deep(size)
 
     // The keyboard stays on an action whose button goes from one place to the other.
@@ -54,7 +53,7 @@ Item {
         const waiting = panel.records.resumable.length
         const done = actions.deep(size) + (waiting === 0 ? 0 : space + alarms.edges + 1.12 * line + waiting * Math.max(76 * Theme.unit, line + 18 * Theme.unit) + (waiting - 1) * 9 * Theme.unit)
         const top = now.deep(size) + space
-        return top + (wide ? Math.max(told, done) : told + space + done + after - space)
+        return top + (wide ? Math.max(told, done) : told + space + done)
     }
 
     height: wide ? Math.max(right.y + right.height, health.visible ? health.y + health.height : left.y + left.height) : health.visible ? health.y + health.height : right.y + right.height
@@ -106,7 +105,7 @@ Item {
     }
     PanelHealth {
         id: health
-        y: today.wide ? left.y + left.height + (left.height > 0 ? today.space : 0) : right.y + right.height + today.after
+        y: today.wide ? left.y + left.height + (left.height > 0 ? today.space : 0) : right.y + right.height + today.space
         width: today.main
         panel: today.panel
         size: today.size

@@ -18,8 +18,6 @@ FocusScope {
     property int page: 0
     // Whether something on the first page is to be seen.
     readonly property bool warns: panel.health.matters.length > 0 || panel.alarms.some(alarm => alarm.holds)
-    // The words of the ways out are as large as those of the actions.
-    readonly property real lettering: (Theme.textSize > 1.15 ? 1 : wide ? 1.5 : 1.15) * Theme.dense
 
     objectName: "panel"
     onPageChanged: pane.contentY = 0
@@ -30,7 +28,7 @@ FocusScope {
     Component.onCompleted: {
         visitorsRing = Theme.byKeyboard
         Theme.byKeyboard = false
-        close.forceActiveFocus(Qt.OtherFocusReason)
+        today.way.forceActiveFocus(Qt.OtherFocusReason)
     }
     Component.onDestruction: if (visitorsRing) Theme.byKeyboard = true
 
@@ -97,7 +95,6 @@ FocusScope {
                 onClicked: view.page = 1
             }
             PanelTab {
-                id: last
                 objectName: "panel-next"
                 words: view.words["console-next-page"]
                 font.pixelSize: head.tabSize
@@ -117,11 +114,27 @@ FocusScope {
             id: close
             objectName: "panel-close"
             anchors { right: parent.right; top: parent.top }
+            width: 68 * Theme.unit
             words: view.words["console-close"]
-            horizontalPadding: 28 * Theme.unit
-            ringInPlace: true
-            font.pixelSize: view.lettering
-            focus: true
+            horizontalPadding: 0
+            // A plain cross: the way back to what was shown stands with the state.
+            contentItem: Item {
+                Drawing {
+                    anchors.centerIn: parent
+                    scale: 1.6 * Theme.unit
+                    path: "M5 5 L19 19 M19 5 L5 19"
+                    ink: close.front
+                }
+            }
+            background: Rectangle {
+                radius: 12 * Theme.unit
+                color: close.down ? Theme.sand : close.hovered ? Theme.white : "transparent"
+                FocusRing {
+                    around: close
+                    reach: 0
+                    radius: parent.radius
+                }
+            }
             onClicked: view.panel.wish("panel", "")
         }
     }
@@ -135,7 +148,7 @@ FocusScope {
     }
     Flickable {
         id: pane
-        anchors { top: rule.bottom; left: parent.left; right: parent.right; bottom: foot.top; margins: view.edge; topMargin: view.space; bottomMargin: view.space }
+        anchors { top: rule.bottom; left: parent.left; right: parent.right; bottom: parent.bottom; margins: view.edge; topMargin: view.space; bottomMargin: 1.3 * view.space }
         contentHeight: content.height
         clip: true
         boundsBehavior: Flickable.StopAtBounds
@@ -152,7 +165,7 @@ FocusScope {
         // Where the keyboard is, there the eye is.
         readonly property Item held: view.Window.activeFocusItem
         onHeldChanged: {
-            if (held === null || held.parent === null || held === close)
+            if (held === null || held.parent === null || held === close || held === today.way)
                 return
             const at = held.mapToItem(content, 0, 0).y
             if (at >= 0 && (at < contentY || at + held.height > contentY + height))
@@ -209,48 +222,5 @@ FocusScope {
     Rectangle {
         anchors { top: pane.bottom; left: parent.left; right: parent.right; bottom: parent.bottom; topMargin: 2 * Theme.unit }
         color: Theme.paper
-    }
-    Item {
-        id: foot
-        anchors { left: parent.left; right: parent.right; bottom: parent.bottom; margins: view.edge; bottomMargin: view.space }
-        // What larger letters take beyond that comes from the margins.
-        height: Math.max(keys.height - Math.ceil(1.4 * (keys.font.pixelSize - usual)), shortcuts.visible ? shortcuts.height : 0)
-        // As large as the page above it, where it still has one line then.
-        readonly property real usual: (view.wide && Theme.textSize <= 1.15 ? 1.1 : 1) * Theme.dense
-        readonly property real large: Math.max(usual, 29 * Theme.unit)
-        readonly property real free: width - shortcuts.implicitWidth - Theme.gap
-        FontMetrics {
-            id: letters
-            font.pixelSize: 100
-        }
-        Balanced {
-            id: keys
-            anchors { left: parent.left; right: shortcuts.visible ? shortcuts.left : parent.right; verticalCenter: parent.verticalCenter }
-            anchors.rightMargin: shortcuts.visible ? Theme.gap : 0
-            text: view.words["console-keys"]
-            horizontalAlignment: Text.AlignLeft
-            least: 0.75
-            font.pixelSize: letters.advanceWidth(text) * foot.large / 100 <= foot.free ? foot.large : foot.usual
-            color: Theme.faintInk
-            wrapMode: Text.Wrap
-        }
-        // They stand on the last page.
-        PanelButton {
-            id: shortcuts
-            objectName: "panel-shortcuts"
-            anchors { right: parent.right; verticalCenter: parent.verticalCenter }
-            width: implicitWidth
-            // Lower than what is done all day.
-            least: 58 * Theme.unit
-            visible: view.page === 0 && view.panel.shortcuts.rows.length > 0
-            words: view.words["console-shortcuts"]
-            horizontalPadding: 28 * Theme.unit
-            ringInPlace: true
-            font.pixelSize: view.lettering
-            onClicked: {
-                view.page = 2
-                last.forceActiveFocus(Qt.OtherFocusReason)
-            }
-        }
     }
 }
