@@ -343,6 +343,24 @@ def test_of_several_boxes_of_a_card_that_are_missed_the_first_says_so_in_words(b
     assert [says(box, words) for box in boxes] == [False, True]
 
 
+@pytest.mark.usefixtures("done")
+@pytest.mark.parametrize("scale", [1.0, 1.15])
+@pytest.mark.parametrize("sheet", SHEETS)
+@pytest.mark.parametrize("size", [(1920, 1080), (1080, 1920)], ids=["wide", "upright"])
+def test_words_about_missed_boxes_push_nothing_out_of_view(
+    booth: Booth, qtbot: QtBot, size: tuple[int, int], sheet: str, scale: float
+) -> None:
+    booth.app.window.setProperty("textSize", scale)
+    window = show_short(booth, qtbot, sheet.rpartition("/")[2].removesuffix(".toml"), size)
+    booth.app.screens.consent.show(read_sheet(sheet))
+    booth.app.screens.kiosk.offer_back(offered=True)
+    booth.settle()
+    booth.app.screens.consent.show_missing(("take_part", "store"))
+    lay_out(window)
+    assert not booth.sees("more")
+    assert place(booth.item("purpose-share")).bottom() < place(booth.item("decline")).top()
+
+
 @pytest.mark.parametrize("shown", [{}, {"textSize": 1.3}, {"textSize": 1.5}, {"highContrast": True}], ids=str)
 @pytest.mark.parametrize("size", [(960, 540), (540, 960)], ids=["wide", "upright"])
 def test_to_decline_looks_like_to_agree_before_and_after_the_boxes_are_ticked(

@@ -30,6 +30,7 @@ PageFrame {
     // How high the word is that stands over the boxes that are up to the visitor, with the air above and below it.
     readonly property real tagTall: Math.ceil(1.37 * tagSize) + 0.75 * Theme.gap
     readonly property real between: used[3] * Theme.gap
+    readonly property real pointGap: (Theme.textSize > 1.15 ? 0.4 : upright ? 0.6 : 0.5) * Theme.gap
     // How wide a drawing is for its letters.
     readonly property real badge: 1.7
     readonly property int needed: consent.purposes.filter(purpose => purpose.required).length
@@ -46,7 +47,7 @@ PageFrame {
         const points = read.map(each => Math.max(badge * point, 1.48 * point * widths.plainLines(each.text, point, column - badge * point - Theme.gap)))
         const boxes = consent.purposes.map(purpose => 2 * inside * Theme.gap + Math.max(64 * Theme.unit,
             lineOf(box) * widths.plainLines(purpose.text, box, column - 136 * Theme.unit)))
-        return sum(points) + (upright ? 0.6 : 0.5) * (read.length - 1) * Theme.gap + Theme.gap + 1.37 * heads
+        return sum(points) + (read.length - 1) * pointGap + Theme.gap + 1.37 * heads
             + sum(boxes) + count * apart * Theme.gap + (count > needed ? tagTall : 0)
     }
     // How high a line of a box is: letters and lines have whole pixels.
@@ -135,7 +136,7 @@ PageFrame {
                 id: points
                 visible: view.short
                 width: pane.width
-                spacing: (view.upright ? 0.6 : 0.5) * Theme.gap
+                spacing: view.pointGap
                 // The middle of those beside which the button for all of the text has room.
                 readonly property real level: {
                     let from = height
