@@ -64,11 +64,10 @@ Item {
     readonly property real lacks: ample ? Math.max(0, Math.ceil((1 + question.lineHeight) * lineOf.height) - question.height) : 0
     // One line stands in the middle of the height of two.
     readonly property real lowered: lacks / 2
-    readonly property real inset: ample ? (way.item as PointScale)?.inset ?? 0 : 0
     // How much more a word takes that it is missed, and how much of that its distances can give: its card stays as high.
     readonly property real over: ample ? Math.max(0, lowered + told.height - question.height - lacks) : 0
     readonly property real flexible: ample ? usualSpacing + closest - leastSpacing + 2 * (usualMargin - leastMargin) : 0
-    readonly property real asks: ample ? question.height + lacks + over + 2 * inset : told.height
+    readonly property real asks: ample ? question.height + lacks + over : told.height
     readonly property real addable: page.alone || beside || stack !== null || roomy !== null ? 0 : (ample ? 48 : 32) * Theme.unit
     readonly property real usualSpacing: roomy?.spacing ?? (page.solo ? lone.spacing : page.alone ? 2 * Theme.gap : spacingUnits() * Theme.unit)
     // What is added goes between a statement and its points before it goes to the margins of their card.
@@ -246,7 +245,7 @@ Item {
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.stack !== null ? box.stack.height - box.stack.point - box.off - height : box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.inset + box.lowered
+                y: box.stack !== null ? box.stack.height - box.stack.point - box.off - height : box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.lowered
                 width: box.beside && !box.crowned ? box.rows.textWidth : box.inline ? asked.width - box.questions.fieldWidth : asked.width
                 spacing: box.inline || box.below && !box.ranged || box.rows.sheet ? 0 : box.page.solo ? 12 * Theme.unit : box.ample ? 4 * Theme.unit : box.usualSpacing
                 Balanced {
@@ -305,7 +304,7 @@ Item {
                 id: way
                 readonly property real room: box.beside && !box.crowned ? box.rows.scaleWidth - box.rows.beyond : asked.width - box.rows.beyond
                 x: Theme.across(box.crowned ? 0 : box.beside ? asked.width - box.rows.scaleWidth : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.crowned || box.stack !== null ? asked.height - height : box.rows.flank ? asked.middle - height / 2 : box.rows.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : box.asks - box.inset + content.spacing
+                y: box.crowned || box.stack !== null ? asked.height - height : box.rows.flank ? asked.middle - height / 2 : box.rows.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : box.asks + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
@@ -375,7 +374,7 @@ Item {
             flank: box.rows.flank
             table: box.rows.sheet
             crowned: box.crowned
-            lift: box.rows.own ? 0 : box.usualMargin + asked.middle - size / 2 + 8 * Theme.unit
+            lift: box.rows.own ? 0 : box.usualMargin + asked.middle - tall / 2 + 8 * Theme.unit
             item: box.item.id
             label: box.item.text
             points: box.item.points
@@ -388,7 +387,6 @@ Item {
             tight: box.page.tight
             large: box.page.large
             even: box.ample
-            joins: box.page.upright || box.rows.table !== null || box.page.solo
             onChosen: point => box.form.rate(box.item.id, point)
         }
     }

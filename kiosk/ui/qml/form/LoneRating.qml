@@ -6,8 +6,8 @@ QtObject {
     required property PageShape page
 
     // How far its content is from the edges of the card, and the question from the scale.
-    readonly property real margin: (page.tight ? 20 : page.upright ? 120 : 64) * Theme.unit
-    readonly property real spacing: (page.upright ? 4 * Theme.textSize : page.tight ? 2 : 3.5) * Theme.gap
+    readonly property real margin: (page.tight ? 20 : page.upright ? 150 : 64) * Theme.unit
+    readonly property real spacing: (page.upright ? 4.8 * Theme.textSize : page.tight ? 2 : 3.5) * Theme.gap
     // How large points are at most, how high many narrow ones are, and how far apart, as a share of their width.
     readonly property real point: 144 * Theme.unit
     readonly property real tall: page.upright ? 150 * Theme.unit : point

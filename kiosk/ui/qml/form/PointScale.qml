@@ -1,4 +1,4 @@
-// Points between two ends, as numbers or as pictures. Nothing is chosen beforehand.
+// Points between two ends: numbers, as the equal fields of one bar, or pictures. Nothing is chosen beforehand.
 pragma ComponentBehavior: Bound
 import QtQuick
 import ".."
@@ -34,8 +34,6 @@ Item {
     property real lift: 0
     // Whether a row of small points is given as much height as one of large ones.
     property bool even: false
-    // Whether more points than stand well in a row are the equal fields of one bar.
-    property bool joins: false
     signal chosen(int point)
 
     readonly property bool pictured: pictures.length > 0
@@ -44,28 +42,26 @@ Item {
     // from edge to edge, and the words stand below them.
     readonly property bool many: points > 7 && !pictured
     readonly property bool spread: flank !== null && many && !crowned
-    readonly property bool joined: joins && !pictured && (many || lone !== null || table !== null)
-    // How round the ends of that bar are: a field has half its width for that.
+    // How large a point would be that stands by itself, and how far it would be from the next one.
+    readonly property real single: lone ? Math.min(wish, filling) : spread ? Math.min(76 * Theme.unit, filling) : (flank ?? table)?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
+    readonly property real between: table || lone || beside && !flank || many && below ? (width - points * single) / Math.max(1, points - 1) : flank ? spare / Math.max(1, points - 1) : pictured ? 0.4 * single
+        : Math.min(1.6 * single, Math.max(0.25 * single, (below ? width - points * single : spare) / Math.max(1, points - 1)))
+    readonly property real span: points * single + (points - 1) * between
+    // A bar is as long as all of these, and its fields have no distance between them.
+    readonly property real size: pictured ? single : Math.floor(span) / points
+    readonly property real gap: pictured ? between : 0
+    readonly property real tall: pictured ? single : table?.point ?? lone?.tall ?? (even && below || many && flank === null ? wish : single)
+    // How round the ends of a bar are: a field has half its width for that.
     readonly property real rounding: Math.floor(Math.min(tall, size) / 2)
-    readonly property real size: joined ? Math.floor(width) / points : lone ? Math.min(wish, filling) : spread ? Math.min(76 * Theme.unit, filling) : (flank ?? table)?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
-    // How high they are: much smaller ones that are given that height take it, and are easier to hit.
-    readonly property bool evened: even && below && !pictured
-    readonly property bool long: joined || (evened ? size < 0.85 * wish : lone !== null && !pictured && size < 0.7 * wish)
-    readonly property real tall: long ? table?.point ?? lone?.tall ?? wish : size
-    // How much of that height they leave, above themselves and below.
-    readonly property real inset: evened ? Math.max(0, (wish - tall) / 2) : 0
     readonly property real filling: width / (points + (lone?.apart ?? (even ? 0.113 : 0.24)) * (points - 1))
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real most: 250 * Theme.unit * Theme.textSize
-    readonly property bool roomy: lowest.implicitWidth + highest.implicitWidth + 2 * Theme.gap + points * size + least <= width
+    readonly property bool roomy: lowest.implicitWidth + highest.implicitWidth + 2 * Theme.gap + points * single + least <= width
     readonly property real leftRoom: crowned ? lowest.implicitWidth : flank ? flank.left : roomy ? lowest.implicitWidth : Math.min(lowest.implicitWidth, most)
     readonly property real rightRoom: crowned ? Math.max(flank?.right ?? 0, highest.implicitWidth) : flank ? flank.right : roomy ? highest.implicitWidth : Math.min(highest.implicitWidth, most)
-    readonly property real spare: width - leftRoom - rightRoom - 2 * Theme.gap - points * size
-    readonly property real least: 0.42 * size * (points - 1)
-    readonly property bool below: spread || joined || !flank && (lone !== null || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least))
-    readonly property real gap: joined ? 0 : flank && !spread ? spare / Math.max(1, points - 1) : lone || beside || many && below ? (width - points * size) / Math.max(1, points - 1) : pictured ? 0.4 * size
-        : Math.min(1.6 * size, Math.max(0.25 * size, (below ? width - points * size : spare) / Math.max(1, points - 1)))
-    readonly property real span: points * size + (points - 1) * gap
+    readonly property real spare: width - leftRoom - rightRoom - 2 * Theme.gap - points * single
+    readonly property real least: 0.42 * single * (points - 1)
+    readonly property bool below: spread || !flank && (table !== null || lone !== null || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least))
 
     readonly property real under: (spread ? 4 : own ? 6 : even ? 10 : large && Theme.textSize <= 1.15 ? 14 : 12) * Theme.unit
     readonly property real words: Math.max(lowest.height, highest.height)
@@ -76,7 +72,7 @@ Item {
     readonly property real head: beside && headed && !own && !table ? words + lift : 0
 
     // In a row, what has air below its letters is in the middle by what can be seen of it.
-    height: table !== null ? row.height : spread ? row.height + words + under - 8 * Theme.unit : flank ? size : beside && !own ? head + row.height : below ? row.height + words + under : Math.max(row.height, words)
+    height: table !== null ? row.height : spread ? row.height + words + under - 8 * Theme.unit : flank ? tall : beside && !own ? head + row.height : below ? row.height + words + under : Math.max(row.height, words)
 
     // Under the first point, or above it; or before it, at the edge where the question begins.
     PlainText {
@@ -106,14 +102,15 @@ Item {
         wrapMode: Text.Wrap
         color: Theme.ink
     }
-    // The line that joins the points to a scale.
+    // The ground of a bar.
     Rectangle {
-        visible: !scale.pictured && !scale.joined
-        x: row.x + scale.size / 2
-        y: row.y + (scale.tall - height) / 2
-        width: scale.span - scale.size
-        height: 4 * Theme.unit
-        color: Theme.edge
+        visible: !scale.pictured
+        x: row.x
+        y: row.y
+        width: row.width
+        height: row.height
+        radius: scale.rounding
+        color: Theme.touchable
     }
     Row {
         id: row
@@ -139,7 +136,7 @@ Item {
                 focusPolicy: on || (scale.value === 0 && index === 0) ? Qt.StrongFocus : Qt.ClickFocus
                 focus: index === 0
                 // Lines between fields are on whole pixels.
-                width: scale.joined ? Math.round((index + 1) * scale.size) - Math.round(index * scale.size) : scale.size
+                width: scale.pictured ? scale.size : Math.round((index + 1) * scale.size) - Math.round(index * scale.size)
                 height: scale.tall
                 readonly property bool leftmost: index === (Theme.mirrored ? scale.points - 1 : 0)
                 readonly property bool rightmost: index === (Theme.mirrored ? 0 : scale.points - 1)
@@ -158,7 +155,7 @@ Item {
                         visible: !scale.pictured
                         readonly property real reach: Math.min(scale.size, scale.tall)
                         text: point.number
-                        font { pixelSize: Math.min(scale.lone ? Theme.size(56) : Theme.heading, Math.max((scale.lone && scale.long ? 0.6 : scale.inset > 0 || scale.long || scale.lone && scale.many ? 0.48 : 0.42) * reach, Math.min(Theme.body, 0.5 * reach))); bold: true }
+                        font { pixelSize: Math.min(scale.lone ? Theme.size(56) : Theme.heading, Math.max((scale.lone ? 0.53 : 0.48) * reach, Math.min(Theme.body, 0.5 * reach))); bold: true }
                         color: point.on ? Theme.white : Theme.ink
                     }
                     Image {
@@ -171,19 +168,19 @@ Item {
                     }
                 }
                 background: Rectangle {
-                    radius: scale.pictured ? Theme.radius : scale.joined ? 0 : width / 2
+                    radius: scale.pictured ? Theme.radius : 0
                     // A bar is round at its own ends.
-                    topLeftRadius: scale.joined && point.leftmost ? scale.rounding : radius
+                    topLeftRadius: !scale.pictured && point.leftmost ? scale.rounding : radius
                     bottomLeftRadius: topLeftRadius
-                    topRightRadius: scale.joined && point.rightmost ? scale.rounding : radius
+                    topRightRadius: !scale.pictured && point.rightmost ? scale.rounding : radius
                     bottomRightRadius: topRightRadius
                     // Only what is chosen is filled; the pointer over it changes the edge alone.
-                    color: point.on ? (scale.pictured ? Theme.sand : Theme.sea) : scale.pictured ? Theme.white : Theme.touchable
+                    color: point.on ? (scale.pictured ? Theme.sand : Theme.sea) : scale.pictured ? Theme.white : "transparent"
                     border.color: Theme.sea
-                    border.width: (scale.joined ? point.hovered ? 5 : 0 : point.on && scale.pictured ? 8 : point.hovered ? 5 : 3) * Theme.unit
+                    border.width: (scale.pictured && point.on ? 8 : point.hovered ? 5 : scale.pictured ? 3 : 0) * Theme.unit
                     // What parts the fields of a bar.
                     Rectangle {
-                        visible: scale.joined && point.index > 0
+                        visible: !scale.pictured && point.index > 0
                         x: Theme.across(-width / 2, width, parent.width)
                         y: (parent.height - height) / 2
                         width: 3 * Theme.unit
@@ -193,7 +190,7 @@ Item {
                     FocusRing {
                         around: point
                         reach: 8 * Theme.unit
-                        radius: scale.pictured ? Theme.radius + reach : scale.joined ? Theme.radius : width / 2
+                        radius: Theme.radius + (scale.pictured ? reach : 0)
                     }
                 }
             }
@@ -201,7 +198,7 @@ Item {
     }
     // The edge of a bar.
     Rectangle {
-        visible: scale.joined
+        visible: !scale.pictured
         x: row.x
         y: row.y
         width: row.width
