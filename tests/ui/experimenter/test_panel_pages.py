@@ -321,6 +321,19 @@ def test_an_upright_page_with_the_next_visitor_to_call_needs_no_scrolling(
     assert today.height() <= today.property("seen")
 
 
+@pytest.mark.parametrize(("size", "language"), in_turn(LAYOUTS))
+def test_a_page_with_a_session_to_go_on_with_needs_no_scrolling(
+    window: Window, language: str, size: tuple[int, int]
+) -> None:
+    busy = busy_day(language)
+    cut_off = {"number": "7", "label": f"21 · 09:31 · {CATALOGUES[language].text('console-stage-game')}"}
+    records = busy["records"] | {"resumable": [cut_off]}
+    show(window, language, size, **calm_day(language) | {"records": records})
+    assert find_item(window.shown.contentItem(), "resume-7") is not None
+    (today,) = of_kind(window.shown.contentItem(), "PanelToday")
+    assert today.height() <= today.property("seen")
+
+
 def level(item: QQuickItem) -> float:
     """Return how far below the top of the window it begins."""
     return item.mapToScene(QPointF()).y()

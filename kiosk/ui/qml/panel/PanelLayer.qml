@@ -43,7 +43,7 @@ Item {
         Accessible.ignored: true
     }
     PanelNote {
-        // At the lower edge while the panel is open, so that it covers nothing that is read there.
+        // At the lower edge while the panel is open, over what is read last there.
         x: (parent.width - width) / 2
         y: desk.experimenter.panel.shown ? parent.height - height - 14 * Theme.unit : 14 * Theme.unit
         note: desk.experimenter.note

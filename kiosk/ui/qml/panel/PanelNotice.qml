@@ -147,7 +147,7 @@ Rectangle {
             Rectangle {
                 visible: row.answered && row.action === ""
                 anchors.fill: parent
-                radius: 12 * Theme.unit
+                radius: 6 * Theme.unit
                 color: Theme.highContrast ? Theme.white : Qt.tint(Theme.cautious, Qt.alpha(Theme.amber, 0.22))
                 border { color: Theme.edge; width: Theme.highContrast ? 2 * Theme.unit : 0 }
                 Drawing {

@@ -51,9 +51,14 @@ Item {
         const parts = [alarmed, warned ? notice.deep(size) : 0, checked(size)].filter(each => each > 0)
         const told = parts.reduce((sum, each) => sum + each + space, -space)
         const waiting = panel.records.resumable.length
-        const done = actions.deep(size) + (waiting === 0 ? 0 : space + alarms.edges + 1.12 * line + waiting * Math.max(76 * Theme.unit, line + 18 * Theme.unit) + (waiting - 1) * 9 * Theme.unit)
+        const asked = 8 * Theme.unit + Math.ceil(1.12 * line) * wordWidths.lines(panel.words["console-resume"], 1.12 * size, side - 2 * alarms.inset)
+        const done = actions.deep(size) + (waiting === 0 ? 0 : space + alarms.edges + asked + waiting * Math.max(76 * Theme.unit, line + 18 * Theme.unit) + (waiting - 1) * 9 * Theme.unit)
         const top = now.deep(size) + space
         return top + (wide ? Math.max(told, done) : told + space + done)
+    }
+
+    WordWidths {
+        id: wordWidths
     }
 
     height: wide ? Math.max(right.y + right.height, health.visible ? health.y + health.height : left.y + left.height) : health.visible ? health.y + health.height : right.y + right.height
