@@ -80,9 +80,12 @@ PageFrame {
         width: view.pitch * (view.first - 1) + view.slot
         height: view.spread
         Repeater {
-            model: view.first + view.second
+            // None is made anew where the page has room for more or fewer of them.
+            model: view.pictures.length
             CardFace {
                 required property int index
+                visible: index < view.first + view.second
+                prepares: true
                 readonly property bool below: index >= view.first
                 readonly property real place: below ? index - view.first - (view.second - 1) / 2 : index - (view.first - 1) / 2
                 x: (parent?.width ?? 0) / 2 - width / 2 + place * view.pitch * view.open
@@ -92,7 +95,7 @@ PageFrame {
                 rotation: (below && !view.upright ? -view.tilt : view.tilt) * place * view.open
                 back: view.cardBack
                 shadow: view.cardShadow
-                picture: view.pictures[index] ?? ""
+                picture: visible ? view.pictures[index] : ""
                 up: true
             }
         }

@@ -16,6 +16,8 @@ QtObject {
     required property real room
 
     readonly property var items: form.items
+    // All questions that are laid out alike; kept here, as each look at one would fetch the list from the form again.
+    readonly property var wordings: form.wordings
     readonly property bool alone: items.length === 1
     // Whether it is one rating of any kind: it has a card as wide as those of several.
     readonly property bool solo: alone && ["likert", "differential", "pictures", "slider"].includes(items[0].kind)

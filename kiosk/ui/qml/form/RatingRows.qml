@@ -123,7 +123,7 @@ QtObject {
             const pointsWidth = Math.ceil(Math.max(1.25 * one.points * point, Math.min(left + right + Theme.gap, 0.42 * page.inner)))
             const scaleWidth = pointsWidth + exempting
             const textWidth = page.inner - scaleWidth - 2 * Theme.gap
-            const lines = Math.max(0, ...page.form.wordings.map(asked => widths.lines(asked, text, textWidth)))
+            const lines = Math.max(0, ...page.wordings.map(asked => widths.lines(asked, text, textWidth)))
             // Even pixels: what is in the middle of a row is at the same place in all of them.
             const height = 2 * Math.ceil(Math.max(point, widths.leading * text * (page.dense ? lines : 1 + 0.92 * Math.max(1, lines - 1))) / 2)
             const head = headHeight(end, pointsWidth, page.dense ? 4 : 14)
@@ -140,7 +140,7 @@ QtObject {
         for (const [pointUnits, endUnits, textUnits, most] of stackTrials) {
             const point = pointUnits * Theme.unit, end = Theme.size(endUnits), text = Theme.size(textUnits), spacing = 24 * Theme.unit
             const head = headHeight(end, page.inner - exempting, 16)
-            const lines = Math.max(0, ...page.form.wordings.map(asked => widths.lines(asked, text, page.inner)))
+            const lines = Math.max(0, ...page.wordings.map(asked => widths.lines(asked, text, page.inner)))
             const height = Math.ceil(widths.leading * text * (1 + 0.92 * (lines - 1)) + spacing + point)
             const margin = Math.floor(Math.min(30 * Theme.unit, ((page.free - head - joint) / rows - height) / 2))
             if (lines <= most && margin >= 20 * Theme.unit)
