@@ -36,7 +36,7 @@ Column {
     function lettered(size: real): real {
         if (!normal)
             return size
-        const most = (wide ? 1 : 1.2) * size
+        const most = wide ? size : Math.max(size, Math.min(1.2 * size, 36 * Theme.unit))
         const room = across - 2 * edge
         const needs = [...named.map(text => wordWidths.plain(text, 1)), wordWidths.bold(words["console-abort"] ?? "", 1)].map(each => each + 2.1)
         return Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(most, ...needs.map(each => room / (each + 0.2)))))

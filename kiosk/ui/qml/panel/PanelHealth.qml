@@ -42,7 +42,7 @@ PanelSection {
             sum += row(at, size)
         return Math.ceil(sum)
     }
-    readonly property real parting: 0.6 * Theme.gap
+    readonly property real parting: 0.5 * Theme.gap
     WordWidths {
         id: wordWidths
     }

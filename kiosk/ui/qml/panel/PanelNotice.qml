@@ -20,9 +20,11 @@ Rectangle {
     readonly property real across: width - 2 * inset
     readonly property real mark: 1.7 * size
     readonly property real above: Math.round(0.5 * Theme.gap)
-    readonly property real between: Math.round(0.5 * Theme.gap)
+    readonly property real between: Math.round(0.42 * Theme.gap)
     readonly property real answer: 0.94 * size
-    readonly property real typed: Math.max(27 * Theme.unit, 0.84 * size)
+    // On an upright page a command has no sign and the least letters, so that what is the matter has larger ones.
+    readonly property bool signed: !Theme.upright
+    readonly property real typed: typedOf(size)
     readonly property real least: (Theme.upright ? 80 : 72) * Theme.unit
     // All answers are as wide as the widest, and stand at the end of their rows, or all of them below.
     readonly property real answering: answeringOf(size)
@@ -38,8 +40,11 @@ Rectangle {
     function isAnswered(matter: var): bool {
         return Boolean(matter.action || matter.command)
     }
+    function typedOf(size: real): real {
+        return Math.max(27 * Theme.unit * Math.max(1, Theme.textSize), signed ? 0.84 * size : 0)
+    }
     function answeringOf(size: real): real {
-        const wide = matter => matter.action ? wordWidths.bold(matter.button, size) + 2.05 * size : matter.command ? typeWidths.advanceWidth(matter.command) * 0.01 * Math.max(27 * Theme.unit, 0.84 * size) + 1.5 * size : -1
+        const wide = matter => matter.action ? wordWidths.bold(matter.button, size) + 2.05 * size : matter.command ? typeWidths.advanceWidth(matter.command) * 0.01 * typedOf(size) + (signed ? 1.5 * size : 0) : -1
         return Math.ceil(Math.max(...matters.map(wide), 0) * 1.01 + (Theme.upright ? 32 : 44) * Theme.unit)
     }
     // What the words of a matter have beside its answer.
@@ -151,6 +156,7 @@ Rectangle {
                 color: Theme.highContrast ? Theme.white : Qt.tint(Theme.cautious, Qt.alpha(Theme.amber, 0.22))
                 border { color: Theme.edge; width: Theme.highContrast ? 2 * Theme.unit : 0 }
                 Drawing {
+                    visible: notice.signed
                     x: 16 * Theme.unit + (1.2 * notice.size - width) / 2
                     y: (parent.height - height) / 2
                     scale: 1.15 * notice.size / 24
@@ -158,7 +164,7 @@ Rectangle {
                     ink: Theme.ink
                 }
                 PlainText {
-                    x: 16 * Theme.unit + 1.5 * notice.size
+                    x: 16 * Theme.unit + (notice.signed ? 1.5 * notice.size : 0)
                     y: (parent.height - height) / 2
                     width: parent.width - x - 10 * Theme.unit
                     text: row.matter?.command ?? ""

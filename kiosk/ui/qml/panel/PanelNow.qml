@@ -27,7 +27,7 @@ Rectangle {
     readonly property string told: stage?.line ?? ""
 
     readonly property real inset: Math.round(1.4 * Theme.gap)
-    readonly property real above: Math.round((beside ? 0.8 : 1) * Theme.gap)
+    readonly property real above: Math.round((beside ? 0.7 : 1) * Theme.gap)
     readonly property real space: Math.round((beside ? 8 : 14) * Theme.unit)
     readonly property real sign: underWay ? Math.round((tabled ? 2.9 : 2.4) * Theme.dense) : 0
     readonly property real signGap: underWay ? Math.round(1.1 * Theme.gap) : 0
