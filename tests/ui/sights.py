@@ -123,9 +123,9 @@ def _is_astray(window: QQuickWindow, item: QQuickItem, side: str, share: float) 
     """Whether the middle of an item is not on its side: screens where the board is, the assistant on the other."""
     across = place(item).center().x() / window.width()
     from_the_board = across if side == "left" else 1 - across
-    # The keys of a number stand in the assistant's place, and those of letters below the page.
+    # The keys of a number stand in the assistant's place, as does a ticket, and those of letters below the page.
     return not lies_in(item, "ScreenKeyboard") and (
-        (from_the_board > share) is not lies_in(item, "SidePanel", "Corner")
+        (from_the_board > share) is not lies_in(item, "SidePanel", "Corner", "Ticket")
     )
 
 

@@ -51,6 +51,12 @@ def drawn(booth: Booth) -> list[list[bool]]:
     return [[dark(row, column) for column in range(squares)] for row in range(squares)]
 
 
+def wanted(booth: Booth) -> list[list[bool]]:
+    """Return the squares of the QR code as they should be."""
+    code = segno.make(booth.app.screens.debrief.payload, micro=False)
+    return [[bool(square) for square in row] for row in code.matrix_iter(border=QUIET_MODULES)]
+
+
 @pytest.mark.parametrize(("width", "height"), [(1280, 720), (1920, 1080), (1080, 1920)])
 def test_the_qr_code_on_the_screen_is_the_letter_with_its_white_frame(
     debriefed: Booth, qtbot: QtBot, width: int, height: int
@@ -58,10 +64,8 @@ def test_the_qr_code_on_the_screen_is_the_letter_with_its_white_frame(
     window = debriefed.app.window
     window.resize(width, height)
     qtbot.waitUntil(lambda: window.contentItem().width() == width)
-    wanted = segno.make(debriefed.app.screens.debrief.payload, micro=False)
-    matrix = [[bool(square) for square in row] for row in wanted.matrix_iter(border=QUIET_MODULES)]
     qtbot.waitUntil(lambda: any(map(any, drawn(debriefed))))
-    assert drawn(debriefed) == matrix
+    assert drawn(debriefed) == wanted(debriefed)
 
 
 def test_it_is_a_letter_to_the_contact_that_names_the_code(debriefed: Booth) -> None:
@@ -434,19 +438,77 @@ def test_the_shipped_debriefing_is_about_its_two_versions_drawn_with_cards_of_th
     for face in (*behind, *others):
         drawn_on = parts(booth, "PointCard")[1 if face in behind else 2]
         assert drawn_on.contains(bounds(face))
-    assert 190 <= booth.item("qr").width() <= 250
-    bubble = next(
-        (item for text, item in written.items() if text and lies_in(item, "Bubble") and "Memo" not in text), None
-    )
-    assert (bubble is None) == (width < height)
-    assert bubble is None or bubble.property("lineCount") <= 3
+    assert booth.item("qr").width() >= 280
+    # The page says everything itself.
+    assert not any(text and lies_in(item, "Bubble") for text, item in written.items())
 
 
-def test_the_debriefing_on_a_wide_screen_has_letters_of_three_sizes(booth: Booth, qtbot: QtBot) -> None:
+def test_the_points_on_a_wide_screen_have_letters_of_two_sizes(booth: Booth, qtbot: QtBot) -> None:
     show_debriefing(booth, qtbot, "en", 1920, 1080)
-    shown = [item for item in items(booth.app.window.contentItem()) if lies_in(item, "DebriefPoints", "TakeHomeCard")]
+    shown = [item for item in items(booth.app.window.contentItem()) if lies_in(item, "DebriefPoints")]
     letters = [item for item in shown if item.inherits("QQuickText") and item.property("text")]
-    assert {item.property("font").pixelSize() for item in letters} == {34, 42, 56}
+    assert {item.property("font").pixelSize() for item in letters} == {34, 42}
+
+
+@pytest.mark.parametrize("size", [(1280, 800), (1366, 768), (1920, 1080)])
+@pytest.mark.parametrize("language", ["en", "it", "es"])
+@pytest.mark.parametrize("at_left", [False, True])
+def test_beside_a_wide_page_the_helper_holds_a_ticket_with_the_code(
+    booth: Booth, qtbot: QtBot, language: str, size: tuple[int, int], *, at_left: bool
+) -> None:
+    window, (width, height) = booth.app.window, size
+    window.setProperty("boardOnRight", at_left)
+    show_debriefing(booth, qtbot, language, width, height)
+    (ticket,), way, face = parts(booth, "Ticket"), bounds(booth.item("continue")), bounds(booth.item("face"))
+    # It ends with the way on, and stands beside the page.
+    assert ticket.bottom() == pytest.approx(way.bottom(), abs=1)
+    assert ticket.right() < bounds(booth.item("page-title")).left() if at_left else ticket.left() > way.right()
+    assert QRectF(0, 0, width, height).contains(ticket)
+    # The eyes are above its edge, and the mouth is behind it.
+    assert face.top() + 0.55 * face.height() <= ticket.top() <= face.top() + 0.6 * face.height()
+    assert face.center().x() == pytest.approx(ticket.center().x(), abs=1)
+    # Its head is below the controls.
+    assert face.top() + 0.15 * face.height() > 85 * min(width / 1920, height / 1080)
+    told = [item for item in items(window.contentItem()) if lies_in(item, "Ticket") and is_text(item)]
+    assert len(told) == 3
+    assert all(ticket.contains(QRectF(painted(item))) for item in told)
+    assert booth.item("qr").width() >= 0.27 * height
+    assert bounds(booth.item("qr")).left() % 1 == 0 or at_left
+    assert drawn(booth) == wanted(booth)
+    # A question over the page finds the helper at its usual place.
+    booth.app.screens.kiosk.ask("stop")
+    booth.settle()
+    lay_out(window)
+    assert bounds(booth.item("face")).bottom() == pytest.approx(height, abs=1)
+    window.setProperty("boardOnRight", False)  # noqa: FBT003 - Qt's own
+
+
+def test_a_ticket_says_whom_to_write_to_and_that_its_code_is_for_another_day_as_well(
+    booth: Booth, qtbot: QtBot
+) -> None:
+    show_debriefing(booth, qtbot, "en", 1920, 1080)
+    booth.app.screens.debrief.give_contact(MAIL)
+    booth.app.screens.debrief.give_code("WWWWW-WWWWW", returns=True)
+    booth.settle()
+    lay_out(booth.app.window)
+    (ticket,) = parts(booth, "Ticket")
+    told = [item for item in items(booth.app.window.contentItem()) if lies_in(item, "Ticket") and is_text(item)]
+    assert [MAIL in str(item.property("text")) for item in told] == [False, False, True, False]
+    assert all(ticket.contains(QRectF(painted(item))) for item in told)
+    assert bounds(booth.item("qr")).bottom() <= painted(booth.item("code")).top()
+
+
+@pytest.mark.parametrize("language", ["en", "it", "es"])
+def test_the_two_notes_of_an_upright_page_are_alike(booth: Booth, qtbot: QtBot, language: str) -> None:
+    show_debriefing(booth, qtbot, language, 1080, 1920)
+    notes = kinds(booth, "PointCard")[3:]
+    written = [[text for text in items(note) if is_text(text)] for note in notes]
+    assert [[text.property("lineCount") for text in note] for note in written] == [[1, 2], [1, 2]]
+    # They are as large as what the cards say below their headings.
+    said = [text for text in items(kinds(booth, "PointCard")[1]) if is_text(text)][-1]
+    assert {text.property("font").pixelSize() for note in written for text in note} == {
+        said.property("font").pixelSize()
+    }
 
 
 @pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])
@@ -471,6 +533,10 @@ def test_on_a_wide_page_the_code_stands_beside_the_way_on_and_leaves_the_height_
     booth: Booth, qtbot: QtBot, language: str, width: int, height: int
 ) -> None:
     show_debriefing(booth, qtbot, language, width, height)
+    # A ticket has no room for so long a code.
+    booth.app.screens.debrief.give_code("WWWWW-WWWWW-WWWWW")
+    booth.settle()
+    lay_out(booth.app.window)
     (strip,), way = parts(booth, "TakeHomeCard"), bounds(booth.item("continue"))
     assert strip.bottom() == pytest.approx(way.bottom(), abs=1)
     assert strip.left() == pytest.approx(bounds(booth.item("page-title")).left(), abs=1)
@@ -504,11 +570,14 @@ def test_all_parts_of_the_debriefing_are_as_far_apart_as_each_other(
 ) -> None:
     show_debriefing(booth, qtbot, language, width, height)
     lead, card, _, *lines = parts(booth, "PointCard")
-    (strip,) = parts(booth, "TakeHomeCard")
     title, way = bounds(booth.item("page-title")), bounds(booth.item("continue"))
     air = [lead.top() - title.bottom(), card.top() - lead.bottom(), lines[0].top() - card.bottom()]
-    air += [strip.top() - max(line.bottom() for line in lines)]
-    # On a wide page the strip and the way on are side by side.
-    air += [way.top() - strip.bottom()] if width < height else []
+    # On a wide page the code stands beside all of them.
+    end = max(line.bottom() for line in lines)
+    if width < height:
+        (ticket,) = parts(booth, "TakeHomeCard")
+        air.append(ticket.top() - end)
+        end = ticket.bottom()
+    air.append(way.top() - end)
     assert air == pytest.approx([air[1]] * len(air), abs=2)
     assert min(air) >= 24

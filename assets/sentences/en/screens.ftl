@@ -185,7 +185,7 @@ keyboard-signs = Signs
 ## Debrief
 
 debrief-take-home = To take home
-debrief-code = Your code to scan or photograph
+debrief-code = Photograph this code
 debrief-scan-letter = A message to send us
 debrief-scan-summary = Your code and our study
 debrief-scan = Your code, to scan

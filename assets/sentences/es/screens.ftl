@@ -186,7 +186,7 @@ keyboard-signs = Signos
 ## Debrief
 
 debrief-take-home = Para llevar a casa
-debrief-code = Tu código, para escanear o fotografiar
+debrief-code = Haz una foto de este código
 debrief-scan-letter = Un mensaje para nosotros
 debrief-scan-summary = Tu código y el estudio
 debrief-scan = Tu código para escanear

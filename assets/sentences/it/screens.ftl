@@ -190,7 +190,7 @@ keyboard-signs = Segni
 ## Debrief
 
 debrief-take-home = Da portare a casa
-debrief-code = Il tuo codice, da inquadrare o fotografare
+debrief-code = Fotografa questo codice
 debrief-scan-letter = Un messaggio per noi
 debrief-scan-summary = Il codice e lo studio
 debrief-scan = Il codice da inquadrare

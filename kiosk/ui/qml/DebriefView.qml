@@ -13,8 +13,14 @@ PageFrame {
     required property AttractScreen attract
     required property url cardBack
     required property url cardShadow
+    // Where a ticket may stand that the helper looks over, as the page sees it: empty where it is not beside the page. How
+    // large the helper is drawn there, and how high above the lower edge of that place the ticket begins; 0 without one.
+    property rect slot
+    property real helperSize: 1
+    readonly property real edge: pointPairs.ticketed ? ticket.height : 0
 
-    aside: sayable(debrief.lines)
+    readonly property string said: sayable(debrief.lines)
+    aside: pointPairs.ticketed ? "" : said
 
     title: debrief.title
     label: words["debrief-continue"]
@@ -28,7 +34,9 @@ PageFrame {
     DebriefShape {
         id: shape
         widths: wordWidths
-        points: view.aside === "" ? view.debrief.lines : view.debrief.lines.slice(0, -1)
+        all: view.debrief.lines
+        fewer: view.said === "" ? view.debrief.lines : view.debrief.lines.slice(0, -1)
+        points: pointPairs.ticketed ? shape.all : shape.fewer
         half: view.half(points.map(point => point.text))
         kept: view.words["debrief-take-home"]
         codeName: view.words["debrief-code"]
@@ -41,9 +49,19 @@ PageFrame {
         wayWidth: view.way.wish
         wayHeight: view.way.height
     }
+    TicketShape {
+        id: ticketShape
+        widths: wordWidths
+        slot: view.slot
+        codeName: shape.codeName
+        code: view.debrief.code
+        notes: shape.notes
+        squares: shape.squares
+    }
     PointPairs {
         id: pointPairs
         page: shape
+        ticket: ticketShape
         taken: texts.taken + (footed ? 0 : card.height)
         room: pane.room
     }
@@ -97,6 +115,18 @@ PageFrame {
                 room: view.room - texts.height - (shape.upright ? 1.1 : 1) * Theme.gap
             }
         }
+    }
+    Ticket {
+        id: ticket
+        parent: view
+        visible: pointPairs.ticketed
+        x: view.slot.x
+        y: Math.round(view.slot.y + view.slot.height - height)
+        width: view.slot.width
+        debrief: view.debrief
+        page: ticketShape
+        labName: view.labName
+        helperSize: view.helperSize
     }
     // Beside the way on, both on one line.
     Item {

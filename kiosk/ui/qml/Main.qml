@@ -250,8 +250,15 @@ Window {
         Page {
             id: debriefPage
             name: "debrief"
+            // How high above the window's lower edge the ticket begins that the helper looks over; 0 without one.
+            readonly property real edge: {
+                const view = item as DebriefView
+                return visible && view !== null && view.edge > 0 ? root.room - view.slot.y - view.slot.height + view.edge : 0
+            }
             sourceComponent: DebriefView {
                 Binding on accompanied { when: debriefPage.follows; value: layout.accompanied; restoreMode: Binding.RestoreNone }
+                Binding on slot { when: debriefPage.follows; value: layout.ticket; restoreMode: Binding.RestoreNone }
+                Binding on helperSize { when: debriefPage.follows; value: layout.ticketFace / 440; restoreMode: Binding.RestoreNone }
                 focus: true
                 debrief: root.debrief
                 labName: root.labName
@@ -318,7 +325,7 @@ Window {
     SidePanel {
         id: helper
         // The keys of a number stand in its place.
-        z: layout.asking ? 1 : root.kiosk.screen === "form" && !root.kiosk.paused ? -1 : 0
+        z: layout.asking ? 1 : (root.kiosk.screen === "form" || edge > 0) && !root.kiosk.paused ? -1 : 0
         x: layout.helperX
         y: layout.helperY
         width: layout.helperWidth
@@ -336,7 +343,9 @@ Window {
         grows: layout.helperReach > 0
         lift: layout.helperLift
         leads: layout.asking || !layout.speaks
-        hushed: layout.asking
+        hushed: layout.asking || edge > 0
+        // A word over the page finds it where it usually is.
+        edge: root.kiosk.bare ? debriefPage.edge : 0
         outcome: root.words["practice-no-pair"]
         outcomeOf: root.words["practice-turning-back"]
         aside: prompt.text

@@ -42,6 +42,10 @@ Item {
     property bool parts: false
     // How far its bubble may reach out of it, at the top.
     property real lift: 0
+    // How far above its lower edge something begins that the face looks over; 0 where there is nothing.
+    property real edge: 0
+    // How much of the face's height is behind that: all below the eyes.
+    readonly property real hidden: 0.435
     // Whether it speaks to those who pass.
     property bool calls: false
     // Whether it is out of sight.
@@ -98,6 +102,11 @@ Item {
         return Math.max(-1, Math.min(1, (place - middle) / (500 * Theme.unit)))
     }
 
+    // How wide the face is in a place of this size.
+    function faceWidth(wide: real, tall: real, share: real): real {
+        return Math.min(wide - 40 * Theme.unit, tall * share * 400 / 440)
+    }
+
     PauseAnimation { id: attention; duration: 1200 }
     PauseAnimation { id: following; duration: 2500 }
     Connections {
@@ -139,8 +148,8 @@ Item {
         // How far it has gone out of sight, through the lower edge.
         property real gone: panel.avatar.away ? 1 : 0
         Behavior on gone { NumberAnimation { duration: 3 * Theme.motion; easing.type: Easing.InOutQuad } }
-        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: -1.05 * height * gone }
-        width: Math.min(parent.width - 40 * Theme.unit, parent.height * (panel.speaks ? panel.share : 0.94) * 400 / 440)
+        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: (panel.edge > 0 ? panel.edge - panel.hidden * height : 0) - 1.05 * height * gone }
+        width: panel.faceWidth(parent.width, parent.height, panel.speaks ? panel.share : 0.94)
         height: width * 440 / 400
         mood: panel.rests || panel.waits ? "idle" : panel.avatar.mood
         // Without motion it speaks with its mouth shut: the bubble stands there meanwhile.

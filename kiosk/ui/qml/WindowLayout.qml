@@ -93,6 +93,15 @@ QtObject {
         : kiosk.screen === "attract" ? (helper.says ? 0.88 : 0.98)
         : kiosk.screen === "introduction" ? 0.68 : kiosk.screen === "result" ? 0.755 : 0.72
 
+    // The place of what the helper looks over beside the debriefing, as that page sees it: it begins where the eyes are at
+    // least in sight, and ends with the way on.
+    readonly property real ticketWidth: width - widthOn("debrief") - Theme.gap
+    readonly property real ticketFace: helper.faceWidth(ticketWidth, room - helperAbove, 0.52) * 440 / 400
+    readonly property real ticketY: helperAbove + 0.46 * ticketFace
+    readonly property rect ticket: !accompanied ? Qt.rect(0, 0, 0, 0)
+        : Qt.rect(Math.round(boardOnRight ? Theme.gap - (width - widthOn("debrief")) : widthOn("debrief")), ticketY,
+            Math.round(ticketWidth), room - 40 * Theme.unit - ticketY)
+
     // The face, as the cards that lie over a page see it: where it begins below them, or where its middle is beside
     // them, and the edge of the helper's place. 0 where it is not there.
     readonly property real faceBelow: !wide && avatar.present && !avatar.away ? helperY + helper.faceTop : 0

@@ -185,7 +185,7 @@ keyboard-signs = Zeichen
 ## Debrief
 
 debrief-take-home = Zum Mitnehmen
-debrief-code = Dein Code zum Scannen oder Fotografieren
+debrief-code = Fotografiere diesen Code
 debrief-scan-letter = Eine Nachricht an uns
 debrief-scan-summary = Dein Code und die Studie
 debrief-scan = Dein Code zum Scannen

@@ -6,7 +6,9 @@ QtObject {
     id: page
 
     required property WordWidths widths
-    // The points that are read on the page; the helper may say one more.
+    // All points; those that the helper leaves to the page, where it says the last one; and those that stand on the page.
+    required property var all
+    required property var fewer
     required property var points
     // How many of them stand in the first of two columns, so that both are about as long.
     required property int half
@@ -23,11 +25,13 @@ QtObject {
     required property real wayWidth
     required property real wayHeight
 
-    readonly property bool drawn: points.length > 0 && points[0].sign !== ""
+    readonly property bool drawn: all.length > 0 && all[0].sign !== ""
     // Beside a drawing, a heading and its text stand close, so that they are seen as one.
     readonly property real leading: 0.9
     // How far the white around the code reaches beyond its own frame, for round corners.
     readonly property real rim: 6 * Theme.unit
+    // How far the texts of the card are from the code: on an upright page, there is the tear of a ticket between them.
+    readonly property real besideCode: (upright ? 2.6 : 1.5) * Theme.gap
     // How much air the letters of the code have above them, as a share of their size.
     readonly property real codeAir: 0.18
 
@@ -71,7 +75,7 @@ QtObject {
     // How high the card is about, with a code of this side and so much air, texts in these sizes, and the code in large
     // letters. Without a heading, what names the code is as large as what is said about it.
     function cardHeight(side: real, pad: real, heading: real, note: real, letters: real): real {
-        const width = 0.95 * (column - (coded ? codeSide(side) + 1.5 * Theme.gap + 2 * rim : 0) - pad - Theme.gap)
+        const width = 0.95 * (column - (coded ? codeSide(side) + besideCode + 2 * rim : 0) - pad - Theme.gap)
         const headed = heading > 0 || !coded, caption = heading > 0 ? Theme.reading : note
         const told = (headed ? cardLines([kept], 1.08 * Math.max(heading, note), width) * lineHeight(Math.max(heading, note)) : 0)
             + cardLines(notes, note, width) * lineHeight(note) + 0.2 * Theme.gap * (2 + notes.filter(text => text !== "").length)

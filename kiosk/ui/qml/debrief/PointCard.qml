@@ -28,9 +28,9 @@ Rectangle {
         : pairs.above ? pairs.side + 0.5 * Theme.gap + words.height : Math.max(pairs.side, words.height)
 
     // A plain one that does not lead is a paragraph, if it is no line.
-    readonly property bool flows: plain && row > 0 && !pairs.split && !pairs.runOn(pairs.size)
+    readonly property bool flows: plain && row > 0 && !pairs.split && !pairs.runOn(pairs.size, pairs.ticketed)
     readonly property real size: !plain ? pairs.size : signed ? pairs.noteSize : flows ? pairs.body : pairs.plainSize(point.text, row, pairs.size)
-    // Two plain ones beside each other have a small drawing each.
+    // Two plain ones beside each other have a small drawing each on a wide page.
     readonly property bool signed: plain && row > 0 && pairs.split
     readonly property bool runsOn: plain && !flows && !signed && pairs.runsOn(point.text, size)
     readonly property real inset: plain ? 0 : Theme.gap
@@ -62,7 +62,7 @@ Rectangle {
             : (card.height - 2 * card.inset - card.tall) / 2 + Math.max(0, (card.pairs.side - height) / 2))
         width: card.width - indent - 2 * card.inset - (card.pairs.above ? indent : 0)
         text: card.point.text
-        sign: card.signed ? card.point.sign : ""
+        sign: card.signed && card.pairs.badged ? card.point.sign : ""
         badge: card.pairs.noteBadge * size
         lastLine: card.signed ? 0.6 : inMiddle ? 0.75 : 0.4
         leadSize: card.size

@@ -7,35 +7,48 @@ QtObject {
     id: pairs
 
     required property DebriefShape page
+    required property TicketShape ticket
 
-    readonly property var two: page.points.slice(1, 3)
-    readonly property var rest: page.points.slice(3)
-    // Two of those stand beside each other on an upright page, below the cards. Otherwise each is a row where all have room
-    // in one line; if not, they are one paragraph.
-    readonly property bool split: page.upright && rest.length === 2
-    readonly property var rows: [page.points.slice(0, 1), two, ...(rest.length === 0 ? [] : !split && runOn(size) ? rest.map(point => [point]) : [rest])]
+    readonly property var two: page.all.slice(1, 3)
+    readonly property var rest: restOf(ticketed)
+    // Beside a ticket, the page has all points.
+    function restOf(ticketed: bool): var {
+        return (ticketed ? page.all : page.fewer).slice(3)
+    }
+    // Two of those stand beside each other on an upright page and beside a ticket, below the cards. Otherwise each is a row
+    // where all have room in one line; if not, they are one paragraph.
+    readonly property bool split: splits(ticketed)
+    function splits(ticketed: bool): bool {
+        return (page.upright || ticketed) && restOf(ticketed).length === 2
+    }
+    readonly property var rows: [page.points.slice(0, 1), two, ...(rest.length === 0 ? [] : !split && runOn(size, ticketed) ? rest.map(point => [point]) : [rest])]
     // How large the headings on the cards are, how wide the drawings, and how large the code below them at most: the first
     // that has room. Headings of two lines come first, then a large code, large drawings and large letters.
-    readonly property var found: page.points.length < 3 || !page.drawn ? undefined : trials.find(fits)
+    readonly property var found: !page.drawn ? undefined : trials.find(fits)
     readonly property real size: found === undefined ? 0 : Theme.size(found.letters)
     readonly property real side: found === undefined ? 0 : found.side * Theme.unit
     readonly property real mostCode: found === undefined ? 0 : codeOf(found)
     // Whether the code stands beside the way on of a wide page, and leaves the cards all of the height above that.
     readonly property bool footed: found?.footed ?? false
+    // Whether the code stands on a ticket beside the page.
+    readonly property bool ticketed: found?.ticketed ?? false
     readonly property var trials: page.upright
-        ? [...tried(3, [260, 220, 190], [44], [250]), ...tried(3, [220, 180, 150], [42, 40], [250]), ...tried(3, [180, 150, 120], [38, 36, 34, 32], [250])]
-        : [...(page.coded ? tried(2, [240, 220, 200, 180, 160, 140], [44, 42, 40], [230, 210], true) : []),
+        ? [...tried(3, [260, 240, 220, 190], [44], [320, 300, 275, 250]), ...tried(3, [220, 180, 150], [42, 40], [300, 275, 250]),
+            ...tried(3, [180, 150, 120], [38, 36, 34, 32], [250])]
+        : [...(ticket.found !== null ? [...tried(2, [290, 270, 250, 230, 210, 190, 170, 150], [46, 44, 42, 40], [0], false, true),
+                ...tried(3, [230, 210, 190, 170, 150, 130], [42, 40, 38, 36], [0], false, true)] : []),
+            ...(page.coded ? tried(2, [240, 220, 200, 180, 160, 140], [44, 42, 40], [230, 210], true) : []),
             ...tried(2, [188, 168, 150], [42, 40, 38]), ...tried(3, [188, 150], [42, 40, 38]), ...tried(3, [150, 120], [36, 34, 32])]
     // On a small screen its squares are larger, where there is room: a telephone has to tell them apart.
     function codeOf(trial: var): real {
         return Math.max(trial.code * Theme.unit, Math.min(290 * Theme.unit, 4 * page.squares))
     }
-    function tried(lines: int, sides: var, sizes: var, codes = [290, 240], footed = false): var {
+    function tried(lines: int, sides: var, sizes: var, codes = [290, 240], footed = false, ticketed = false): var {
         const all = []
         for (const code of codes)
             for (const side of sides)
                 for (const letters of sizes)
-                    all.push({letters, side, code, lines, footed})
+                    all.push({letters, side, code, lines, footed, ticketed})
         return all
     }
     // All else that is read is as large as each other, and smaller.
@@ -48,7 +61,7 @@ QtObject {
     required property real taken
     required property real room
     readonly property real further: {
-        const between = (rest.length > 0 ? 3 : 2) - (footed ? 1 : 0), closer = 0.2 * Theme.gap * Math.max(0, rows.length - 3)
+        const between = (rest.length > 0 ? 3 : 2) - (footed || ticketed ? 1 : 0), closer = 0.2 * Theme.gap * Math.max(0, rows.length - 3)
         return Math.max(0, Math.min(2.2 * Theme.gap, (room - taken - closer - between * Theme.gap) / (between + 2)))
     }
 
@@ -59,7 +72,7 @@ QtObject {
     readonly property real pad: footed ? page.footPad : Theme.gap
 
     // The drawing on a card is above the words where a card is narrow or high.
-    readonly property bool above: page.upright || footed
+    readonly property bool above: page.upright || footed || ticketed
     // Two cards that are about what was seen and about chance show cards of the game.
     readonly property bool ofCards: two.some(point => ["seen", "chance"].includes(point.sign))
     // How far a row is below the one before it. Plain lines follow each other closely.
@@ -72,22 +85,24 @@ QtObject {
         const body = bodyOf(size)
         return (at === 0 ? [size, 0.95 * size, 0.9 * size, 0.86 * size, body] : [body, 0.95 * body]).find(tried => runsOn(text, tried)) ?? body
     }
-    // How large two of them beside each other are: a little smaller, where that saves a line.
-    readonly property real noteSize: noteSizeOf(size)
-    function noteSizeOf(size: real): real {
+    // How large two of them beside each other are: a little smaller, where that saves the longer one a line.
+    readonly property real noteSize: noteSizeOf(size, ticketed)
+    function noteSizeOf(size: real, ticketed: bool): real {
         const body = bodyOf(size), less = 0.94 * body
-        const lines = tried => rest.reduce((sum, point) => sum + noteLines(point.text, tried), 0)
+        const lines = tried => Math.max(...restOf(ticketed).map(point => noteLines(point.text, tried)))
         return lines(less) < lines(body) ? less : body
     }
-    // How wide their drawings are, as a share of the size of their letters.
-    readonly property real noteBadge: 1.8
+    // How wide their drawings are, as a share of the size of their letters: on an upright page there are none, and the words
+    // have all of the width.
+    readonly property bool badged: !page.upright
+    readonly property real noteBadge: badged ? 1.8 : 0
     function noteLines(text: string, size: real): int {
-        const width = (Theme.unit < 0.9 ? 0.97 : 1) * ((page.column - Theme.gap) / 2 - noteBadge * size - Theme.gap)
+        const width = (Theme.unit < 0.9 ? 0.97 : 1) * ((page.column - Theme.gap) / 2 - (badged ? noteBadge * size + Theme.gap : 0))
         return text.split("\n").reduce((sum, part, at) => sum + (at === 0 ? page.widths.lines(part, size, width) : page.widths.plainLines(part, size, width)), 0)
     }
     // Whether all plain points below the cards have room in one line each.
-    function runOn(size: real): bool {
-        return rest.every(point => runsOn(point.text, plainSize(point.text, 2, size)))
+    function runOn(size: real, ticketed: bool): bool {
+        return restOf(ticketed).every(point => runsOn(point.text, plainSize(point.text, 2, size)))
     }
     // Whether heading and text of a plain point have room in one line.
     function runsOn(text: string, size: real): bool {
@@ -97,12 +112,14 @@ QtObject {
     // Whether points and card have room in these sizes, with headings of so many lines at most. No text on a card has more
     // than two.
     function fits(trial: var): bool {
+        if ((trial.ticketed ? page.all : page.fewer).length < 3)
+            return false
         const size = Theme.size(trial.letters), side = trial.side * Theme.unit, code = codeOf(trial)
-        const above = page.upright || trial.footed, width = wordsWidth(side, above)
-        const most = trial.footed ? page.room + page.wayHeight - page.footHeight(code, bodyOf(size), lettersOf(true))
+        const above = page.upright || trial.footed || trial.ticketed, width = wordsWidth(side, above)
+        const most = trial.ticketed ? page.room : trial.footed ? page.room + page.wayHeight - page.footHeight(code, bodyOf(size), lettersOf(true))
             : page.room - Theme.gap - page.cardHeight(code, Theme.gap, 0, bodyOf(size), lettersOf(false))
         return two.every(point => headLines(point, size, width) <= trial.lines && bodyLines(point, size, width) <= 2)
-            && 1.02 * stacked(size, side, above) <= most
+            && 1.02 * stacked(size, side, above, trial.ticketed) <= most
     }
     // How wide the words of a card are. Small letters are set on whole pixels, which makes them wider.
     function wordsWidth(side: real, above: bool): real {
@@ -119,8 +136,9 @@ QtObject {
         return page.pointLines("\n" + point.text.slice(point.text.indexOf("\n") + 1), bodyOf(size), width)
     }
     // How high all rows are with headings of this size and drawings of this side.
-    function stacked(size: real, side: real, above: bool): real {
-        return leadHeight(page.points[0].text, size) + Theme.gap + cardsHeight(size, side, above) + (rest.length > 0 ? Theme.gap + restHeight(size) : 0)
+    function stacked(size: real, side: real, above: bool, ticketed: bool): real {
+        return leadHeight(page.all[0].text, size) + Theme.gap + cardsHeight(size, side, above)
+            + (restOf(ticketed).length > 0 ? Theme.gap + restHeight(size, ticketed) : 0)
     }
     function cardsHeight(size: real, side: real, above: bool): real {
         const width = wordsWidth(side, above)
@@ -131,13 +149,13 @@ QtObject {
         const plain = plainSize(text, 0, size)
         return (runsOn(text, plain) ? 1 : page.pointLines(text, plain, page.column)) * page.lineHeight(plain)
     }
-    function restHeight(size: real): real {
-        const body = bodyOf(size)
-        if (split) {
-            const note = noteSizeOf(size)
+    function restHeight(size: real, ticketed: bool): real {
+        const body = bodyOf(size), rest = restOf(ticketed)
+        if (splits(ticketed)) {
+            const note = noteSizeOf(size, ticketed)
             return Math.max(noteBadge * note, ...rest.map(point => page.pointHeight(noteLines(point.text, note), note)))
         }
-        if (runOn(size))
+        if (runOn(size, ticketed))
             return rest.reduce((sum, point) => sum + page.lineHeight(plainSize(point.text, 2, size)) + 0.2 * Theme.gap, -0.2 * Theme.gap)
         const whole = rest.map(point => point.text.replace(/\n/g, ". ")).join(" ")
         return page.cardLines([whole], body, 0.95 * page.column) * page.lineHeight(body)

@@ -16,8 +16,8 @@ Rectangle {
 
     readonly property bool footed: sizes.pairs.footed
     readonly property bool coded: debrief.code !== ""
-    // A visitor who is not stored has no code, and may have questions all the same.
-    readonly property bool there: coded || debrief.questions !== ""
+    // A visitor who is not stored has no code, and may have questions all the same. A ticket beside the page says all of it.
+    readonly property bool there: (coded || debrief.questions !== "") && !sizes.pairs.ticketed
     readonly property real pad: sizes.pad
     readonly property real rim: page.rim
     // As much of the height as the text leaves, so that a page that fits does not scroll.
@@ -27,9 +27,14 @@ Rectangle {
     visible: there
     height: there ? Math.max(pictureHeight, told.height) + 2 * pad : 0
     radius: Theme.radius
-    // Below two cards it is a quiet strip, and beside the way on a card as they are.
-    color: sizes.paired && !footed ? Theme.shelf : Theme.white
-    border { color: Theme.edge; width: sizes.paired && !footed && !Theme.highContrast ? 0 : 3 * Theme.unit }
+    // Below two cards it is a ticket on an upright page and a quiet strip on a wide one, and beside the way on a card as
+    // they are.
+    readonly property bool torn: sizes.paired && page.upright && coded
+    color: torn ? "white" : sizes.paired && !footed ? Theme.shelf : Theme.white
+    border {
+        color: torn && !Theme.highContrast ? Theme.amber : Theme.edge
+        width: torn ? 4 * Theme.unit : sizes.paired && !footed && !Theme.highContrast ? 0 : 3 * Theme.unit
+    }
 
     component Note: Balanced {
         width: told.width
@@ -38,6 +43,14 @@ Rectangle {
         font.pixelSize: card.sizes.note
     }
 
+    TicketTear {
+        visible: card.torn
+        x: Theme.across(card.pad + 2 * card.rim + picture.width + 0.5 * (card.page.besideCode - card.rim), 0, card.width)
+        height: card.height
+        down: true
+        edge: card.border.color
+        edgeWidth: card.border.width
+    }
     // On white even where the theme is dark: a camera needs it.
     Rectangle {
         id: picture
@@ -69,7 +82,7 @@ Rectangle {
     Column {
         id: told
         anchors {
-            left: picture.right; leftMargin: (card.coded ? 1.5 : 0.25) * Theme.gap
+            left: picture.right; leftMargin: card.coded ? card.page.besideCode : 0.25 * Theme.gap
             right: parent.right; rightMargin: card.footed ? card.pad : Theme.gap
             verticalCenter: parent.verticalCenter
         }
@@ -85,8 +98,11 @@ Rectangle {
                 width: told.width
                 text: card.page.codeName
                 // In one line, if that makes it only a little smaller.
-                font.pixelSize: [1, 0.95, 0.9].map(share => share * card.sizes.caption)
-                    .find(size => card.page.widths.plain(text, size) <= 0.97 * told.width) ?? card.sizes.caption
+                font {
+                    pixelSize: [1, 0.95, 0.9].map(share => share * card.sizes.caption)
+                        .find(size => card.page.widths.bold(text, size) <= 0.97 * told.width) ?? card.sizes.caption
+                    bold: card.sizes.paired
+                }
                 horizontalAlignment: Text.AlignLeft
                 wrapMode: Text.Wrap
                 color: card.sizes.paired ? Theme.ink : Theme.faintInk
