@@ -102,11 +102,12 @@ PageFrame {
         // Further apart where the page has room for it.
         spacing: view.airy ? view.pitch - view.badge : Math.max(view.close, Math.min(3 * Theme.gap, (0.92 * view.room - view.tall(view.size)) / Math.max(1, view.read.length)))
         Repeater {
-            model: view.read
+            // By number, and none where they are not seen: a list that is made anew would have all rows made anew.
+            model: view.staged ? 0 : view.read.length
             Item {
                 id: row
                 required property int index
-                required property var modelData
+                readonly property var said: view.read[index] ?? {text: "", sign: ""}
                 width: parent?.width ?? 0
                 height: view.airy ? view.badge : line.height
                 // What happens one after the other is a path: not the first line, which says what is studied, nor the last,
@@ -124,8 +125,8 @@ PageFrame {
                     id: line
                     y: headed ? 0 : (row.height - height) / 2
                     width: row.width
-                    text: row.modelData.text
-                    sign: row.modelData.sign
+                    text: row.said.text
+                    sign: row.said.sign
                     // What it takes of the visitor, by which they decide.
                     strong: !view.led && row.index > 0 && view.aside === "" && row.index === view.read.length - 1
                     size: view.airy ? view.airySize : view.size

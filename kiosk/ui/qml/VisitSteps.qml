@@ -137,12 +137,12 @@ Item {
             columns: visit.upright ? 1 : Math.max(1, visit.steps.length)
             spacing: visit.gutter
             Repeater {
-                model: visit.steps
+                // By number: a list that is made anew with the same steps would have all cards made anew.
+                model: visit.steps.length
                 Rectangle {
                     id: card
                     required property int index
-                    required property var modelData
-                    readonly property string text: modelData.text
+                    readonly property string text: visit.steps[index]?.text ?? ""
                     objectName: "step"
                     width: visit.cardWidth
                     height: visit.tall
@@ -150,13 +150,13 @@ Item {
                     color: Theme.white
                     border { color: Theme.edge; width: 3 * Theme.unit }
                     // What is above and below the content of a card that is higher than that.
-                    readonly property real spare: height - visit.cardTall(visit.found ?? {head: 1, body: 1, side: 1})
+                    readonly property real spare: height - (visit.found?.card ?? height)
                     StepDrawing {
                         id: drawing
                         x: visit.upright ? Theme.across(visit.pad, width, card.width) : (card.width - width) / 2
                         y: visit.upright ? (card.height - height) / 2 : visit.pad + 0.45 * card.spare
                         width: visit.side
-                        sign: card.modelData.sign
+                        sign: visit.steps[card.index]?.sign ?? ""
                         picture: visit.picture
                         back: visit.cardBack
                         shadow: visit.cardShadow
