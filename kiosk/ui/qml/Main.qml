@@ -344,8 +344,8 @@ Window {
         lift: layout.helperLift
         leads: layout.asking || !layout.speaks
         hushed: layout.asking || edge > 0
-        // A word over the page finds it where it usually is.
-        edge: root.kiosk.bare ? debriefPage.edge : 0
+        // A question that it asks finds it where it usually is, and so does a pause.
+        edge: layout.asking || root.kiosk.paused ? 0 : debriefPage.edge
         outcome: root.words["practice-no-pair"]
         outcomeOf: root.words["practice-turning-back"]
         aside: prompt.text

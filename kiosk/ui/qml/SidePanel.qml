@@ -45,7 +45,7 @@ Item {
     // How far above its lower edge something begins that the face looks over; 0 where there is nothing.
     property real edge: 0
     // How much of the face's height is behind that: all below the eyes.
-    readonly property real hidden: 0.435
+    readonly property real hidden: 0.42
     // Whether it speaks to those who pass.
     property bool calls: false
     // Whether it is out of sight.
