@@ -334,6 +334,23 @@ def test_a_page_with_a_session_to_go_on_with_needs_no_scrolling(
     assert today.height() <= today.property("seen")
 
 
+@pytest.mark.parametrize(("matters", "size", "language"), in_turn([0, 1, 2], LAYOUTS))
+def test_a_page_with_an_alarm_needs_no_scrolling(
+    window: Window, language: str, size: tuple[int, int], matters: int
+) -> None:
+    panel = window.screens.experimenter.parts[2]
+    panel.show_alarms(
+        [{"when": "09:40", "words": CATALOGUES[language].text("console-alarm-robot-lost"), "holds": True}]
+    )
+    health = with_the_copy(language)
+    show(window, language, size, health=health | {"matters": health["matters"][:matters]})
+    (today,) = of_kind(window.shown.contentItem(), "PanelToday")
+    assert of_kind(today, "PanelAlarms")
+    fits = today.height() <= today.property("seen")
+    panel.show_alarms([])
+    assert fits
+
+
 def level(item: QQuickItem) -> float:
     """Return how far below the top of the window it begins."""
     return item.mapToScene(QPointF()).y()

@@ -32,7 +32,7 @@ Row {
     // How high it is in so much width, if its words are written so large.
     function deep(size: real, width: real): real {
         const line = each => Math.ceil(1.37 * each), widths = widthsOf(size, width)
-        return shown.length === 0 ? 0 : Math.ceil(0.95 * line(figure) + Math.max(...shown.map((tile, at) => wordWidths.plainLines(tile.title, 0.9 * size, widths[at]) * line(0.9 * size)
+        return shown.length === 0 ? 0 : Math.ceil(line(figure) + Math.max(...shown.map((tile, at) => wordWidths.plainLines(tile.title, 0.9 * size, widths[at]) * line(0.9 * size)
             + (tile.line === "" ? 0 : wordWidths.plainLines(tile.line, 0.9 * size, widths[at]) * line(0.9 * size)))))
     }
     WordWidths {

@@ -61,7 +61,7 @@ Rectangle {
     }
     // How high it is if it is written so large.
     function deep(size: real): real {
-        const line = each => Math.ceil(1.4 * each), below = !asides(size)
+        const line = each => Math.ceil(1.37 * each), below = !asides(size)
         const high = matter => {
             const own = beside(matter, size), answers = isAnswered(matter) ? Math.max(least, line(size) + 18 * Theme.unit) : 0
             const words = wordWidths.lines(said(matter), size, own) * line(size) + (matter.remedy ? wordWidths.plainLines(matter.remedy, 0.94 * size, own) * line(0.94 * size) : 0)
@@ -119,13 +119,13 @@ Rectangle {
                 color: Theme.ink
                 wrapMode: Text.Wrap
             }
-            PlainText {
+            Balanced {
                 visible: text !== ""
                 width: parent.width
                 text: row.matter?.remedy ?? ""
+                horizontalAlignment: Text.AlignLeft
                 font.pixelSize: notice.answer
                 color: Theme.ink
-                wrapMode: Text.Wrap
             }
         }
         Item {

@@ -27,7 +27,7 @@ Rectangle {
     readonly property string told: stage?.line ?? ""
 
     readonly property real inset: Math.round(1.4 * Theme.gap)
-    readonly property real above: Math.round((beside ? 0.7 : 1) * Theme.gap)
+    readonly property real above: Math.round((beside ? 0.5 : 1) * Theme.gap)
     readonly property real space: Math.round((beside ? 8 : 14) * Theme.unit)
     readonly property real sign: underWay ? Math.round((tabled ? 2.9 : 2.4) * Theme.dense) : 0
     readonly property real signGap: underWay ? Math.round(1.1 * Theme.gap) : 0
@@ -58,7 +58,7 @@ Rectangle {
     function saidDeep(size: real): real {
         const line = each => Math.ceil(1.37 * each)
         const behind = behinds(size) || second === "" || told === ""
-        return Math.max(sign, 0.92 * line(crown) * wordWidths.lines(word, crown, 1.03 * room) + (behind ? 1 : 2) * line(1.25 * size))
+        return Math.max(sign, line(crown) * (0.08 + 0.92 * wordWidths.lines(word, crown, 1.03 * room)) + (behind ? 1 : 2) * line(1.25 * size))
     }
     function pressedDeep(size: real): real {
         const letters = lettered(size)

@@ -36,13 +36,13 @@ Item {
             color: Theme.ink
             wrapMode: Text.Wrap
         }
-        PlainText {
+        Balanced {
             width: parent.width
             visible: text !== ""
             text: tile.line
+            horizontalAlignment: Text.AlignLeft
             font.pixelSize: tile.lower
             color: Theme.faintInk
-            wrapMode: Text.Wrap
         }
     }
 }

@@ -27,7 +27,7 @@ Item {
     readonly property bool allWell: !warned && panel.alarms.every(alarm => !alarm.holds)
     // What a page has left is shared among the rows of its parts.
     readonly property real free: Math.floor(seen - below)
-    readonly property real spread: wide || !tabled ? 0 : Math.max(0, Math.min(0.4 * acting, 0.5 * (free - (warned ? notice.height + space : 0) - acting - space - checked(size))))
+    readonly property real spread: wide || !tabled ? 0 : Math.max(0, Math.min(0.4 * acting, 0.5 * (free - (left.height > 0 ? left.height + space : 0) - acting - space - checked(size))))
     readonly property real acting: actions.deep(size)
 
     // The keyboard stays on an action whose button goes from one place to the other.
