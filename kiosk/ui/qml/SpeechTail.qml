@@ -4,6 +4,8 @@ import QtQuick.Shapes
 import "."
 
 Shape {
+    id: tail
+
     width: 60 * Theme.unit
     height: 38 * Theme.unit
     // Without the bubble's line between its ends, which begins 1 unit below its top, on whole pixels.
@@ -12,9 +14,9 @@ Shape {
         strokeColor: "transparent"
         startX: 4 * Theme.unit; startY: Theme.unit - 2
         PathLine { x: 4 * Theme.unit; y: 3 * Theme.unit }
-        PathLine { x: 30 * Theme.unit; y: 34 * Theme.unit }
-        PathLine { x: 56 * Theme.unit; y: 3 * Theme.unit }
-        PathLine { x: 56 * Theme.unit; y: Theme.unit - 2 }
+        PathLine { x: tail.width / 2; y: tail.height - 4 * Theme.unit }
+        PathLine { x: tail.width - 4 * Theme.unit; y: 3 * Theme.unit }
+        PathLine { x: tail.width - 4 * Theme.unit; y: Theme.unit - 2 }
     }
     ShapePath {
         fillColor: "transparent"
@@ -23,7 +25,7 @@ Shape {
         joinStyle: ShapePath.RoundJoin
         capStyle: ShapePath.RoundCap
         startX: 4 * Theme.unit; startY: 3 * Theme.unit
-        PathLine { x: 30 * Theme.unit; y: 34 * Theme.unit }
-        PathLine { x: 56 * Theme.unit; y: 3 * Theme.unit }
+        PathLine { x: tail.width / 2; y: tail.height - 4 * Theme.unit }
+        PathLine { x: tail.width - 4 * Theme.unit; y: 3 * Theme.unit }
     }
 }

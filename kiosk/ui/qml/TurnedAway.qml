@@ -85,10 +85,11 @@ Item {
             color: Theme.ink
         }
         SpeechTail {
-            x: (bubble.before ? bubble.width + 9 * Theme.unit : -9 * Theme.unit) - width / 2
+            width: 44 * Theme.unit
+            height: 30 * Theme.unit
+            x: (bubble.before ? bubble.width + 10 * Theme.unit : -10 * Theme.unit) - width / 2
             y: (bubble.height - height) / 2
             rotation: bubble.before ? -90 : 90
-            scale: 0.75
         }
     }
 }

@@ -21,7 +21,7 @@ QtObject {
 
     readonly property bool possible: !page.upright && !page.alone && !page.largeText
     // How much of the page's height the rows of a table leave. Hidden ones count: what depends on it stays where it is.
-    readonly property real left: sheet === null ? 0 : (stack !== null ? page.free : page.cleared) - sheet.head - joint - page.items.length * (sheet.height + 2 * sheet.margin)
+    readonly property real left: sheet === null ? 0 : (stack !== null ? page.free - 12 * Theme.unit : page.cleared) - sheet.head - joint - page.items.length * (sheet.height + 2 * sheet.margin)
     // How the rows of such a table look, all measures of them; null if they are none.
     readonly property var table: !possible || !alike() ? null : tabled()
     // How ratings of an upright page look that all have the same scale; null if they do not. They stand on a sheet as well,
@@ -142,7 +142,7 @@ QtObject {
             const head = headHeight(end, page.inner - exempting, 16)
             const lines = Math.max(0, ...page.wordings.map(asked => widths.lines(asked, text, page.inner)))
             const height = Math.ceil(widths.leading * text * (1 + 0.92 * (lines - 1)) + spacing + point)
-            const margin = Math.floor(Math.min(30 * Theme.unit, ((page.free - head - joint) / rows - height) / 2))
+            const margin = Math.floor(Math.min(30 * Theme.unit, ((page.free - 12 * Theme.unit - head - joint) / rows - height) / 2))
             if (lines <= most && margin >= 20 * Theme.unit)
                 return {point, end, beyond: exempting, text, spacing, height, margin, head}
         }
