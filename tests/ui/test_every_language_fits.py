@@ -629,7 +629,8 @@ def test_ten_points_of_a_wide_page_are_as_large_as_five_and_stand_below_their_qu
 def test_ten_points_among_others_of_an_upright_page_are_the_equal_fields_of_one_bar(
     kiosk: tuple[Window, StudyConfig],
 ) -> None:
-    (page,) = rating_pages(kiosk, Layout(1080, 1920), MIXED)
+    pages = rating_pages(kiosk, Layout(1080, 1920), MIXED)
+    page = next(pages)
     points, card, _, scale = page[-1]
     name = MIXED[-1].id
     ground = kiosk[0].shown.contentItem()
@@ -649,6 +650,16 @@ def test_ten_points_among_others_of_an_upright_page_are_the_equal_fields_of_one_
     kiosk[0].screens.form.show_answer(name, 7)
     fills = [background_of(field).property("color").name() for field in fields]
     assert [fills.count(fill) for fill in (fills[0], fills[6])] == [9, 1]
+    # The others have the same look, each with its words for the ends below its points.
+    for (_, _, shown, other), item in zip(page[:-1], MIXED[:-1], strict=True):
+        assert isinstance(item, Likert)
+        assert (other.left(), other.width(), other.height()) == pytest.approx(
+            (scale.left(), scale.width(), scale.height())
+        )
+        assert other.top() - shown.bottom() == pytest.approx(scale.top() - page[-1][2].bottom(), abs=1)
+    low = [painted(text) for text in texts(ground) if text.property("text") == "do not agree at all"]
+    assert [end.top() > other.bottom() for end, (*_, other) in zip(low, page[:-1], strict=True)] == [True] * 3
+    assert list(pages) == []
 
 
 def background_of(button: QQuickItem) -> QQuickItem:

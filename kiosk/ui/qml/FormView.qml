@@ -205,7 +205,7 @@ PageFrame {
             // How far cards stand from each other at least. Options in columns leave the height for more.
             readonly property real least: plainQuestions.roomy !== null ? plainQuestions.larger.apart(plainQuestions.roomy) : plainQuestions.columns !== null ? plainQuestions.cardGap : shape.gap
             // Further apart where the page has room for it; and what belongs together, too.
-            readonly property real plain: summed(box => box.plain + (plainQuestions.columns !== null ? plainQuestions.cardGap : (shape.ample || shape.scarce ? 16 : shape.easy ? 24 : 30) * Theme.unit))
+            readonly property real plain: summed(box => box.plain + (plainQuestions.columns !== null ? plainQuestions.cardGap : (shape.easy ? 24 : 30) * Theme.unit))
                 - (plainQuestions.columns !== null ? 12 * Theme.unit : 0)
             readonly property int optionRows: summed(box => box.optionRows)
             // Whether all options of each question are as high as its highest, where the page has room for that, and how much
@@ -217,7 +217,7 @@ PageFrame {
             readonly property real grown: !shape.easy || plainQuestions.roomy !== null || optionRows === 0 ? 0 : room - plain >= optionRows * most ? most
                 : Math.max(0, Math.floor((room - plain - (even ? uneven : 0)) / optionRows))
             readonly property real addable: summed(box => box.addable)
-            readonly property real loosened: (shape.calm || shape.rated || shape.scarce) && addable > 0 ? Math.max(0, Math.min(1, (room / share - plain - optionRows * grown) / addable)) : 0
+            readonly property real loosened: (shape.calm || shape.rated) && addable > 0 ? Math.max(0, Math.min(1, (room / share - plain - optionRows * grown) / addable)) : 0
             readonly property real tall: summed(box => box.height)
             readonly property real heads: summed(box => box.head)
             // Adds up what each item that is there has of something.

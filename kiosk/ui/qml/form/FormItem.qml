@@ -45,7 +45,6 @@ Item {
     readonly property bool columned: questions.columns !== null
     // How it is laid out on the sheet of an upright page; null if it is not on one.
     readonly property var stack: rows.stack
-    readonly property bool ample: page.ample && stack === null
     // How it is laid out where the page has room for that; else null.
     readonly property var roomy: questions.roomy
     // Whether it has no card.
@@ -58,36 +57,18 @@ Item {
     readonly property int optionRows: choices?.rows ?? 0
     readonly property ChoiceList choices: way.item as ChoiceList
     // How high it is without all that, and how much can be added to the distances.
-    readonly property real plain: head + (inline ? Math.max(told.height, way.height) : asks + (way.active ? usualSpacing + (choices?.least ?? way.height) : 0)) + 2 * usualMargin - Math.min(over, flexible)
-    // How much height its statement and its scale leave of what two lines and a scale of five points take: on such a page
-    // all cards are as high, and cards and scales stand at the same places on all pages with as many.
-    readonly property real lacks: ample ? Math.max(0, Math.ceil((1 + question.lineHeight) * lineOf.height) - question.height) : 0
-    // One line stands in the middle of the height of two.
-    readonly property real lowered: lacks / 2
-    // How much more a word takes that it is missed, and how much of that its distances can give: its card stays as high.
-    readonly property real over: ample ? Math.max(0, lowered + told.height - question.height - lacks) : 0
-    readonly property real flexible: ample ? usualSpacing + closest - leastSpacing + 2 * (usualMargin - leastMargin) : 0
-    readonly property real asks: ample ? question.height + lacks + over : told.height
-    readonly property real addable: page.alone || beside || stack !== null || roomy !== null ? 0 : (ample ? 48 : 32) * Theme.unit
+    readonly property real plain: head + (inline ? Math.max(told.height, way.height) : told.height + (way.active ? usualSpacing + (choices?.least ?? way.height) : 0)) + 2 * usualMargin
+    readonly property real addable: page.alone || beside || stack !== null || roomy !== null ? 0 : 32 * Theme.unit
     readonly property real usualSpacing: roomy?.spacing ?? (page.solo ? lone.spacing : page.alone ? 2 * Theme.gap : spacingUnits() * Theme.unit)
-    // What is added goes between a statement and its points before it goes to the margins of their card.
-    readonly property real closest: 22 * Theme.unit
-    readonly property real leastSpacing: 6 * Theme.unit
-    readonly property real leastMargin: 9 * Theme.unit
-    readonly property real between: ample || page.scarce ? Math.min(closest, addable * loosened) : 0
-    // A word that it is missed takes of the first, and then of the others.
-    readonly property real given: Math.max(0, Math.min(over, usualSpacing + between - leastSpacing))
-    readonly property real spacing: usualSpacing + between - given
-    readonly property real loose: usualMargin + (addable * loosened - between) / 2
-    readonly property real margin: Math.max(Math.min(loose, leastMargin), loose - (over - given) / 2)
+    readonly property real margin: usualMargin + addable * loosened / 2
     readonly property real usualMargin: bare ? 0 : stack?.margin ?? roomy?.margin ?? (page.solo ? lone.margin
         : rows.own || rows.table ? Math.max((rows.table ? 4 : 10) * Theme.unit, rows.margin - taken / 2) : marginUnits() * Theme.unit)
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
     readonly property real taken: rows.measured ? Math.max(0, told.height - rows.height) : 0
     // Letters have some air above them already; what stands below them does not.
-    readonly property real raised: crowned ? 5 * Theme.unit : page.alone && roomy === null || beside || inline || page.dense || ample || stack !== null ? 0 : 4 * Theme.unit
+    readonly property real raised: crowned ? 5 * Theme.unit : page.alone && roomy === null || beside || inline || page.dense || stack !== null ? 0 : 4 * Theme.unit
     // How far a statement on a sheet is from its points: a word that it is missed takes of that, and of the margin above.
-    readonly property real off: stack === null ? 0 : Math.max(leastSpacing, Math.min(stack.spacing, stack.height - stack.point - told.height + stack.margin - leastMargin))
+    readonly property real off: stack === null ? 0 : Math.max(6 * Theme.unit, Math.min(stack.spacing, stack.top - told.height + stack.margin - 9 * Theme.unit))
     readonly property var ways: ({
         likert: points, differential: points, pictures: points, slider: line, single: choice, multiple: choice,
         integer: number, text: letters, page: null
@@ -97,8 +78,6 @@ Item {
     function spacingUnits(): real {
         if (page.dense)
             return 4
-        if (ample)
-            return 16
         if (page.easy)
             return 18
         if (page.airy)
@@ -112,8 +91,6 @@ Item {
             return 8
         if (page.tight)
             return 10
-        if (ample)
-            return 15
         if (page.easy)
             return inline ? 28 : 30
         if (page.airy)
@@ -186,8 +163,9 @@ Item {
     }
     // The words for the ends stand above the first part of a sheet.
     readonly property real head: parted + (topped ? rows.sheet.head : beside && headed && !rows.own ? ((way.item as PointScale)?.words ?? 0) + 8 * Theme.unit : 0)
-    // Whether it is the first part of a sheet, which the band with these words is joined to.
-    readonly property bool topped: rows.sheet !== null && page.before(index) === null
+    // Whether it is the first part of a sheet, and the band with these words is joined to it.
+    readonly property bool first: page.before(index) === null
+    readonly property bool topped: first && rows.sheet !== null && rows.sheet.head > 0
 
     // How far its part of a sheet lies under the next one, whose edge is its own, too; the last is as high.
     readonly property bool last: page.after(index) === null
@@ -214,21 +192,17 @@ Item {
         bare: box.bare
         missed: box.missed
         due: box.due
-        joinsAbove: box.rows.sheet !== null
+        joinsAbove: box.rows.sheet !== null && (box.topped || !box.first)
         joinsBelow: box.joint > 0
     }
 
-    FontMetrics {
-        id: lineOf
-        font: question.font
-    }
     Column {
         id: content
         anchors { left: parent.left; right: parent.right; margins: box.bare ? 0 : box.page.inset }
         // In the middle of its card, on whole pixels.
         y: Math.round(box.head + box.margin - box.raised + (box.rows.sheet !== null ? box.rows.joint / 2 : 0))
         // The word that a rating alone is missed stands in that distance, and its points stay where they are.
-        spacing: box.page.solo && box.missed ? Math.max(20 * Theme.unit, box.usualSpacing - told.spacing - note.height) : box.spacing
+        spacing: box.page.solo && box.missed ? Math.max(20 * Theme.unit, box.usualSpacing - told.spacing - note.height) : box.usualSpacing
 
         Item {
             id: asked
@@ -241,13 +215,13 @@ Item {
             readonly property real axis: box.rows.flank ? middle : box.rows.own ? Math.max((height - way.height + scaled) / 2 + 0.3 * box.rows.margin, told.height / 2 - 8 * Theme.unit) : middle
             // Rows of one line and of two are as high; with words for its ends it is as high as a scale and a line of words.
             readonly property real middle: Math.max(box.rows.own || box.rows.table ? box.rows.height : scaled, told.height, box.beside && !box.page.dense ? (1 + box.rows.closeness) * 1.37 * box.rows.text : 0) / 2
-            height: box.stack?.height ?? (box.crowned ? box.rows.flank.crownedHeight : box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : box.asks + (way.active ? content.spacing + way.height : 0))
+            height: box.stack?.height ?? (box.crowned ? box.rows.flank.crownedHeight : box.beside ? 2 * middle : box.inline ? Math.max(told.height, way.height) : told.height + (way.active ? content.spacing + way.height : 0))
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.stack !== null ? box.stack.height - box.stack.point - box.off - height : box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : box.lowered
+                y: box.stack !== null ? box.stack.top - box.off - height : box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : 0
                 width: box.beside && !box.crowned ? box.rows.textWidth : box.inline ? asked.width - box.questions.fieldWidth : asked.width
-                spacing: box.inline || box.below && !box.ranged || box.rows.sheet ? 0 : box.page.solo ? 12 * Theme.unit : box.ample ? 4 * Theme.unit : box.usualSpacing
+                spacing: box.inline || box.below && !box.ranged || box.rows.sheet ? 0 : box.page.solo ? 12 * Theme.unit : box.usualSpacing
                 Balanced {
                     id: question
                     width: parent.width
@@ -257,7 +231,7 @@ Item {
                         pixelSize: box.asking()
                         bold: box.item.kind !== "page"
                     }
-                    lineHeight: box.item.kind === "page" ? 1.15 : box.stack !== null || box.ample || box.page.solo ? 0.92 : box.rows.closeness
+                    lineHeight: box.item.kind === "page" ? 1.15 : box.stack !== null || box.page.solo ? 0.92 : box.rows.closeness
                     horizontalAlignment: box.page.solo ? Text.AlignHCenter : Text.AlignLeft
                 }
                 // What a number may be, below the question where the number stands beside that.
@@ -304,7 +278,7 @@ Item {
                 id: way
                 readonly property real room: box.beside && !box.crowned ? box.rows.scaleWidth - box.rows.beyond : asked.width - box.rows.beyond
                 x: Theme.across(box.crowned ? 0 : box.beside ? asked.width - box.rows.scaleWidth : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.crowned || box.stack !== null ? asked.height - height : box.rows.flank ? asked.middle - height / 2 : box.rows.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : box.asks + content.spacing
+                y: box.stack !== null ? box.stack.top : box.crowned ? asked.height - height : box.rows.flank ? asked.middle - height / 2 : box.rows.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.height + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
@@ -314,7 +288,7 @@ Item {
                 active: box.item.exempts && box.rows.sheet !== null
                 visible: active
                 x: Theme.across(asked.width - width, width, asked.width)
-                y: box.stack !== null ? asked.height - (box.stack.point + height) / 2 : asked.middle - height / 2
+                y: box.stack !== null ? box.stack.top + (box.stack.point - height) / 2 : asked.middle - height / 2
                 sourceComponent: exemption
             }
         }
@@ -386,7 +360,6 @@ Item {
             dense: box.page.dense
             tight: box.page.tight
             large: box.page.large
-            even: box.ample
             onChosen: point => box.form.rate(box.item.id, point)
         }
     }

@@ -46,13 +46,6 @@ QtObject {
     readonly property bool easy: few && upright && !alone
     // Whether a few ratings have an upright page.
     readonly property bool rated: airy && !alone && rates
-    // The same with large texts: what the page leaves goes first to where it is scarce.
-    readonly property bool scarce: large && largeText && !alone && rates
-    // For how many cards it has height with large distances between a question and its scale, even with two lines in each,
-    // and whether these are enough.
-    readonly property int fits: rated ? Math.floor(free / (widths.leading * (2 * Theme.size(38) + Theme.size(30))
-        + (Theme.textSize > 1 ? 190 : 198) * Theme.unit)) : 0
-    readonly property bool ample: rated && places <= fits
 
     // Whether it is one choice, or two plain questions: these are large, where they have room for that.
     readonly property bool chosen: alone && items[0].options !== undefined && !items[0].exempts
@@ -83,7 +76,7 @@ QtObject {
     }
     // How many places there are for those, at least.
     function rows(): int {
-        return ample ? fits : Math.max(1, form.fullest, seen().length)
+        return Math.max(1, form.fullest, seen().length)
     }
     // The item that is seen before this one, and the one after it; null if there is none.
     function before(at: int): var {

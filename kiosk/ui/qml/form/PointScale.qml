@@ -26,14 +26,14 @@ Item {
     property bool own: false
     // How its row looks if they stand at both sides of the points instead, level with them; null if they do not.
     property var flank: null
-    // How its row looks if they stand once in a band above all rows; null if they do not.
+    // How its part of a sheet looks, where they stand once in a band above all or below its own points; null if it is not on one.
     property var table: null
+    // Whether that says the words for its ends.
+    readonly property bool headless: table !== null && table.own !== true
     // Whether it has the width of its card, below its question.
     property bool crowned: false
     // How far above the points the words stand in a table.
     property real lift: 0
-    // Whether a row of small points is given as much height as one of large ones.
-    property bool even: false
     signal chosen(int point)
 
     readonly property bool pictured: pictures.length > 0
@@ -50,10 +50,10 @@ Item {
     // A bar is as long as all of these, and its fields have no distance between them.
     readonly property real size: pictured ? single : Math.floor(span) / points
     readonly property real gap: pictured ? between : 0
-    readonly property real tall: pictured ? single : table?.point ?? lone?.tall ?? (even && below || many && flank === null ? wish : single)
+    readonly property real tall: pictured ? single : table?.point ?? lone?.tall ?? (many && flank === null ? wish : single)
     // How round the ends of a bar are: a field has half its width for that.
     readonly property real rounding: Math.floor(Math.min(tall, size) / 2)
-    readonly property real filling: width / (points + (lone?.apart ?? (even ? 0.113 : 0.24)) * (points - 1))
+    readonly property real filling: width / (points + (lone?.apart ?? 0.24) * (points - 1))
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real most: 250 * Theme.unit * Theme.textSize
     readonly property bool roomy: lowest.implicitWidth + highest.implicitWidth + 2 * Theme.gap + points * single + least <= width
@@ -63,28 +63,28 @@ Item {
     readonly property real least: 0.42 * single * (points - 1)
     readonly property bool below: spread || !flank && (table !== null || lone !== null || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least))
 
-    readonly property real under: (spread ? 4 : own ? 6 : even ? 10 : large && Theme.textSize <= 1.15 ? 14 : 12) * Theme.unit
+    readonly property real under: (spread ? 4 : own ? 6 : table !== null ? 8 : large && Theme.textSize <= 1.15 ? 14 : 12) * Theme.unit
     readonly property real words: Math.max(lowest.height, highest.height)
     // Below a few points there would be room for a few letters only: the ends then reach beyond the points.
     readonly property real half: Math.min(width / 2 - Theme.gap, Math.max(span / 2 - 0.5 * Theme.gap, most))
 
     // In a table the ends stand above the points: they head the rows below, too.
-    readonly property real head: beside && headed && !own && !table ? words + lift : 0
+    readonly property real head: beside && headed && !own && table === null ? words + lift : 0
 
     // In a row, what has air below its letters is in the middle by what can be seen of it.
-    height: table !== null ? row.height : spread ? row.height + words + under - 8 * Theme.unit : flank ? tall : beside && !own ? head + row.height : below ? row.height + words + under : Math.max(row.height, words)
+    height: headless ? row.height : spread ? row.height + words + under - 8 * Theme.unit : flank ? tall : beside && !own ? head + row.height : below ? row.height + words + under : Math.max(row.height, words)
 
     // Under the first point, or above it; or before it, at the edge where the question begins.
     PlainText {
         id: lowest
-        visible: !scale.table && (!scale.beside || scale.own || scale.headed)
+        visible: !scale.headless && (!scale.beside || scale.own || scale.headed)
         x: Theme.across(0, width, scale.width)
         y: scale.beside && !scale.own ? scale.words - height : scale.below ? row.y + row.height + scale.under : (scale.height - height) / 2
-        width: scale.below ? scale.half : scale.leftRoom
+        width: scale.table?.own ? scale.table.room(scale.leftEnd, scale.rightEnd) : scale.below ? scale.half : scale.leftRoom
         text: scale.leftEnd
         horizontalAlignment: scale.flank && !scale.spread ? Text.AlignRight : Text.AlignLeft
         lineHeight: scale.flank && !scale.spread ? 0.9 : 1
-        font.pixelSize: scale.flank?.end ?? (scale.own ? Theme.size(28) : scale.lone?.end ?? (scale.large ? Theme.size(Theme.textSize > 1.15 ? 30 : 34) : scale.beside ? Theme.size(30) : Theme.small))
+        font.pixelSize: (scale.flank ?? scale.table)?.end ?? (scale.own ? Theme.size(28) : scale.lone?.end ?? (scale.large ? Theme.size(Theme.textSize > 1.15 ? 30 : 34) : scale.beside ? Theme.size(30) : Theme.small))
         wrapMode: Text.Wrap
         color: Theme.ink
     }
@@ -94,7 +94,7 @@ Item {
         readonly property real end: Math.max(scale.span, 2 * scale.half + Theme.gap)
         x: Theme.across(scale.below ? end - width : scale.leftRoom + scale.span + 2 * Theme.gap, width, scale.width)
         y: scale.beside && !scale.own ? scale.words - height : scale.below ? lowest.y : (scale.height - height) / 2
-        width: scale.below ? scale.half : scale.rightRoom
+        width: scale.table?.own ? scale.table.room(scale.rightEnd, scale.leftEnd) : scale.below ? scale.half : scale.rightRoom
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
         lineHeight: lowest.lineHeight

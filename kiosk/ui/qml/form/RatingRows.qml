@@ -24,9 +24,9 @@ QtObject {
     readonly property real left: sheet === null ? 0 : (stack !== null ? page.free - 12 * Theme.unit : page.cleared) - sheet.head - joint - page.items.length * (sheet.height + 2 * sheet.margin)
     // How the rows of such a table look, all measures of them; null if they are none.
     readonly property var table: !possible || !alike() ? null : tabled()
-    // How ratings of an upright page look that all have the same scale; null if they do not. They stand on a sheet as well,
-    // with each scale below its statement.
-    readonly property var stack: page.upright && !page.alone && alike() ? stacked() : null
+    // How ratings by numbers look on an upright page; null if they do not fit so. They stand on a sheet as well, each scale
+    // below its statement. Where not all have the same words for the ends, each has its own below it.
+    readonly property var stack: page.upright && page.items.length > 1 && page.items.every(item => ["likert", "differential"].includes(item.kind)) ? stacked() : null
     // What the parts of either look like, which have no distance between them.
     readonly property var sheet: table ?? stack
     // How wide the line between them is.
@@ -62,7 +62,8 @@ QtObject {
     ]
     // The same of the sheet of an upright page.
     readonly property var stackTrials: [
-        [112, 34, 42, 2], [112, 34, 40, 2], [112, 34, 38, 2], [112, 32, 36, 2], [112, 30, 34, 2], [100, 30, 34, 3], [100, 28, 32, 3]
+        [112, 34, 42, 2], [112, 34, 40, 2], [112, 34, 38, 2], [112, 32, 36, 2], [112, 30, 34, 2],
+        [100, 30, 36, 2], [100, 30, 34, 3], [100, 28, 32, 3], [84, 28, 32, 3], [72, 26, 29, 3], [64, 24, 29, 3]
     ]
     // The sizes of points, of the words for their ends and of questions that flanked rows are tried in, and in how many
     // lines these may stand.
@@ -108,9 +109,11 @@ QtObject {
     }
     // Whether all items of the page are rated on the same few points with the same words for their ends.
     function alike(): bool {
+        return page.items.length > 1 && same() && page.items[0].points <= 7
+    }
+    function same(): bool {
         const one = page.items[0]
-        return page.items.length > 1 && page.items.every(item => item.kind === "likert" && item.points <= 7
-            && ["points", "left", "right"].every(key => item[key] === one[key]))
+        return page.items.every(item => item.kind === "likert" && ["points", "left", "right"].every(key => item[key] === one[key]))
     }
     // How a table looks in the first sizes in which it fits; null if it fits in none. A question has the width that the
     // points leave. What all pages ask that are laid out like this one counts.
@@ -136,24 +139,35 @@ QtObject {
     // How the sheet of an upright page looks in the first sizes in which it fits; null if it fits in none. All parts are as
     // high as that of the longest statement, which the scales of all pages are as far below.
     function stacked(): var {
-        const one = page.items[0], rows = Math.max(1, page.form.fullest, page.items.length)
+        const rows = Math.max(1, page.form.fullest, page.items.length), own = !same(), room = page.free - 12 * Theme.unit - joint
         for (const [pointUnits, endUnits, textUnits, most] of stackTrials) {
             const point = pointUnits * Theme.unit, end = Theme.size(endUnits), text = Theme.size(textUnits), spacing = 24 * Theme.unit
-            const head = headHeight(end, page.inner - exempting, 16)
+            const span = page.inner - exempting
+            const head = own ? 0 : headHeight(end, span, 16)
             const lines = Math.max(0, ...page.wordings.map(asked => widths.lines(asked, text, page.inner)))
-            const height = Math.ceil(widths.leading * text * (1 + 0.92 * (lines - 1)) + spacing + point)
-            const margin = Math.floor(Math.min(30 * Theme.unit, ((page.free - 12 * Theme.unit - head - joint) / rows - height) / 2))
-            if (lines <= most && margin >= 20 * Theme.unit)
-                return {point, end, beyond: exempting, text, spacing, height, margin, head}
+            // Where the points begin, and how much stands below that.
+            const top = Math.ceil(widths.leading * text * (1 + 0.92 * (lines - 1)) + spacing)
+            const height = top + Math.ceil(point + (own ? endsUnder + ownHeight(end, span) : 0))
+            const margin = Math.floor(Math.min(30 * Theme.unit, ((room - head) / rows - height) / 2))
+            if (lines <= most && margin >= (own ? 14 : 20) * Theme.unit)
+                return {point, end, own, beyond: exempting, text, spacing, top, height, margin, head, room: (of, other) => endRoom(of, other, end, span)}
         }
         return null
+    }
+    // How far words for the ends are below their points, and how high they are there.
+    readonly property real endsUnder: 8 * Theme.unit
+    function ownHeight(end: real, span: real): real {
+        return widths.leading * end * Math.max(...page.items.map(item => endLines(item, end, span)))
+    }
+    // In how many lines both words for the ends stand in this width.
+    function endLines(item: var, end: real, span: real): int {
+        return Math.max(...[[item.left, item.right], [item.right, item.left]].map(([of, other]) => widths.plainLines(of, end, endRoom(of, other, end, span))))
     }
     // How much of a scale's width the button takes that says that an item does not apply.
     readonly property real exempting: page.items.some(item => item.exempts) ? Math.ceil(1.03 * widths.plain(exemption, Theme.small)) + 36 * Theme.unit + Theme.gap : 0
     // How high the band is with the words for the ends.
     function headHeight(end: real, span: real, air: real): real {
-        const one = page.items[0], words = [[one.left, one.right], [one.right, one.left]]
-        return Math.ceil(widths.leading * end * Math.max(...words.map(([of, other]) => widths.plainLines(of, end, endRoom(of, other, end, span)))) + air * Theme.unit)
+        return Math.ceil(widths.leading * end * endLines(page.items[0], end, span) + air * Theme.unit)
     }
     // How much of the width of the points the word for an end has, in their band: a short one leaves a long one the rest.
     function endRoom(of: string, other: string, end: real, span: real): real {
