@@ -145,12 +145,15 @@ QtObject {
             const span = page.inner - exempting
             const head = own ? 0 : headHeight(end, span, 16)
             const lines = Math.max(0, ...page.wordings.map(asked => widths.lines(asked, text, page.inner)))
+            // On a page without such a long statement, all stand in the middle of that height.
+            const fewer = lines - Math.max(...page.items.map(item => widths.lines(item.shown, text, page.inner)))
+            const raised = Math.round(Math.max(0, fewer) * 0.92 * widths.leading * text / 2)
             // Where the points begin, and how much stands below that.
             const top = Math.ceil(widths.leading * text * (1 + 0.92 * (lines - 1)) + spacing)
             const height = top + Math.ceil(point + (own ? endsUnder + ownHeight(end, span) : 0))
             const margin = Math.floor(Math.min(30 * Theme.unit, ((room - head) / rows - height) / 2))
             if (lines <= most && margin >= (own ? 14 : 20) * Theme.unit)
-                return {point, end, own, beyond: exempting, text, spacing, top, height, margin, head, room: (of, other) => endRoom(of, other, end, span)}
+                return {point, end, own, beyond: exempting, text, spacing, top: top - raised, height, margin, head, room: (of, other) => endRoom(of, other, end, span)}
         }
         return null
     }
