@@ -33,11 +33,12 @@ Item {
     Column {
         id: rows
         Repeater {
-            model: texts.sizes.paired ? texts.pairs.rows : []
+            // All of these by number: a list that is made anew with the same points would have all of them made anew.
+            model: texts.sizes.paired ? texts.pairs.rows.length : 0
             PointRow {
                 id: row
-                required property var modelData
                 required property int index
+                readonly property var points: texts.pairs.rows[index] ?? []
                 readonly property bool plain: index !== 1
                 readonly property bool alone: plain && (index === 0 || !texts.pairs.split)
                 // As high as the one that says more.
@@ -45,8 +46,10 @@ Item {
                 topPadding: texts.pairs.step(index, texts.pairs.further)
                 spacing: Theme.gap
                 Repeater {
-                    model: row.alone ? [row.modelData] : row.modelData.map(point => [point])
+                    model: row.alone ? 1 : row.points.length
                     PointCard {
+                        required property int index
+                        points: row.alone ? row.points : row.points.slice(index, index + 1)
                         width: row.alone ? texts.width : (texts.width - row.spacing) / 2
                         row: row.index
                         plain: row.plain
@@ -66,19 +69,21 @@ Item {
         id: list
         spacing: 2 * Theme.gap
         Repeater {
-            model: texts.sizes.paired ? [] : texts.columns
+            model: texts.sizes.paired ? 0 : texts.columns.length
             Column {
                 id: column
-                required property var modelData
+                required property int index
+                readonly property var points: texts.columns[index] ?? []
                 width: texts.sizes.halved ? (texts.width - list.spacing) / 2 : texts.width
                 spacing: texts.sizes.spacing
                 Repeater {
-                    model: column.modelData
+                    model: column.points.length
                     SignedLine {
-                        required property var modelData
+                        required property int index
+                        readonly property var point: column.points[index] ?? {text: "", sign: ""}
                         width: column.width
-                        text: modelData.text
-                        sign: texts.sizes.signed ? modelData.sign : ""
+                        text: point.text
+                        sign: texts.sizes.signed ? point.sign : ""
                         size: texts.sizes.text
                         leading: texts.sizes.signed ? texts.page.leading : 1.08
                         strong: texts.page.isHeading(text)

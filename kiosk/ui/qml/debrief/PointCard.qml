@@ -7,10 +7,9 @@ import ".."
 Rectangle {
     id: card
 
-    // The points.
-    required property var modelData
     // There is none for a moment, while a page with fewer comes.
-    readonly property var point: modelData[0] ?? ({text: "", sign: ""})
+    required property var points
+    readonly property var point: points[0] ?? ({text: "", sign: ""})
     required property PageFrame frame
     required property DebriefShape page
     required property PointPairs pairs
@@ -39,19 +38,21 @@ Rectangle {
     radius: Theme.radius
     color: plain ? "transparent" : Theme.white
     border { color: Theme.edge; width: plain ? 0 : 3 * Theme.unit }
-    PointDrawing {
-        id: drawing
-        visible: !card.plain
+    Loader {
+        active: !card.plain
         x: card.pairs.above ? (card.width - width) / 2 : Theme.across(card.inset, width, card.width)
         y: card.pairs.above ? card.inset : (card.height - height) / 2
         width: card.pairs.above ? card.width - 2 * card.inset : card.pairs.side
-        side: card.pairs.side
-        fanned: card.pairs.above
-        sign: card.point.sign
-        ofCards: card.pairs.ofCards
-        picture: card.picture
-        back: card.cardBack
-        shadow: card.cardShadow
+        height: card.pairs.side
+        sourceComponent: PointDrawing {
+            side: card.pairs.side
+            fanned: card.pairs.above
+            sign: card.point.sign
+            ofCards: card.pairs.ofCards
+            picture: card.picture
+            back: card.cardBack
+            shadow: card.cardShadow
+        }
     }
     SignedLine {
         id: words
@@ -76,7 +77,7 @@ Rectangle {
         id: flow
         visible: card.flows
         width: parent.width
-        text: card.modelData.map(point => card.frame.sentences(point.text).join(" ")).join(" ")
+        text: card.points.map(point => card.frame.sentences(point.text).join(" ")).join(" ")
         font.pixelSize: card.size
         horizontalAlignment: Text.AlignLeft
     }
@@ -86,13 +87,12 @@ Rectangle {
         width: card.width
     }
     Repeater {
-        model: card.flows ? card.modelData : []
+        model: card.flows ? card.points.length : 0
         Whole {
-            required property var modelData
             required property int index
-            text: modelData.text
+            text: card.points[index]?.text ?? ""
             y: index * height
-            height: flow.height / card.modelData.length
+            height: flow.height / Math.max(1, card.points.length)
         }
     }
     Whole {

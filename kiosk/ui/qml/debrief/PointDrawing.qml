@@ -19,8 +19,6 @@ Item {
     readonly property real reach: Math.min(0.52 * side, (width + Theme.gap - 0.96 * side) / 2)
     readonly property bool open: sign === "seen"
 
-    height: side
-
     component Face: CardFace {
         anchors.centerIn: parent
         width: Math.floor(0.95 * drawing.side)
@@ -38,12 +36,13 @@ Item {
         sign: drawing.sign
     }
     Repeater {
-        model: drawing.ofCards && drawing.fanned ? [-1, 1] : []
+        model: drawing.ofCards && drawing.fanned ? 2 : 0
         Face {
-            required property int modelData
-            anchors { horizontalCenterOffset: modelData * drawing.reach; verticalCenterOffset: 0.05 * drawing.side }
+            required property int index
+            readonly property int way: index === 0 ? -1 : 1
+            anchors { horizontalCenterOffset: way * drawing.reach; verticalCenterOffset: 0.05 * drawing.side }
             scale: 0.88
-            rotation: 9 * modelData
+            rotation: 9 * way
         }
     }
     Face {

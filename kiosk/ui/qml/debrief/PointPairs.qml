@@ -24,7 +24,17 @@ QtObject {
     readonly property var rows: [page.points.slice(0, 1), two, ...(rest.length === 0 ? [] : !split && runOn(size, ticketed) ? rest.map(point => [point]) : [rest])]
     // How large the headings on the cards are, how wide the drawings, and how large the code below them at most: the first
     // that has room. Headings of two lines come first, then a large code, large drawings and large letters.
-    readonly property var found: !page.drawn ? undefined : trials.find(fits)
+    readonly property var found: !page.drawn ? undefined : chosen()
+    function chosen(): var {
+        // What many trials have in common is reckoned once.
+        const known = new Map()
+        return trials.find(trial => fits(trial, known))
+    }
+    function once(known: var, name: string, reckon: var): var {
+        if (!known.has(name))
+            known.set(name, reckon())
+        return known.get(name)
+    }
     readonly property real size: found === undefined ? 0 : Theme.size(found.letters)
     readonly property real side: found === undefined ? 0 : found.side * Theme.unit
     readonly property real mostCode: found === undefined ? 0 : codeOf(found)
@@ -111,15 +121,19 @@ QtObject {
     }
     // Whether points and card have room in these sizes, with headings of so many lines at most. No text on a card has more
     // than two.
-    function fits(trial: var): bool {
+    function fits(trial: var, known: var): bool {
         if ((trial.ticketed ? page.all : page.fewer).length < 3)
             return false
         const size = Theme.size(trial.letters), side = trial.side * Theme.unit, code = codeOf(trial)
         const above = page.upright || trial.footed || trial.ticketed, width = wordsWidth(side, above)
-        const most = trial.ticketed ? page.room : trial.footed ? page.room + page.wayHeight - page.footHeight(code, bodyOf(size), lettersOf(true))
-            : page.room - Theme.gap - page.cardHeight(code, Theme.gap, 0, bodyOf(size), lettersOf(false))
-        return two.every(point => headLines(point, size, width) <= trial.lines && bodyLines(point, size, width) <= 2)
-            && 1.02 * stacked(size, side, above, trial.ticketed) <= most
+        const words = once(known, ["words", size, width].join(" "), () => cardWords(size, width))
+        if (words.heads > trial.lines || words.bodies > 2)
+            return false
+        const most = trial.ticketed ? page.room : once(known, ["most", size, code, trial.footed].join(" "), () =>
+            trial.footed ? page.room + page.wayHeight - page.footHeight(code, bodyOf(size), lettersOf(true))
+                : page.room - Theme.gap - page.cardHeight(code, Theme.gap, 0, bodyOf(size), lettersOf(false)))
+        const others = once(known, ["others", size, trial.ticketed].join(" "), () => othersHeight(size, trial.ticketed))
+        return 1.02 * (others + cardsHeight(words.tall, side, above)) <= most
     }
     // How wide the words of a card are. Small letters are set on whole pixels, which makes them wider.
     function wordsWidth(side: real, above: bool): real {
@@ -135,15 +149,18 @@ QtObject {
     function bodyLines(point: var, size: real, width: real): int {
         return page.pointLines("\n" + point.text.slice(point.text.indexOf("\n") + 1), bodyOf(size), width)
     }
-    // How high all rows are with headings of this size and drawings of this side.
-    function stacked(size: real, side: real, above: bool, ticketed: bool): real {
-        return leadHeight(page.all[0].text, size) + Theme.gap + cardsHeight(size, side, above)
-            + (restOf(ticketed).length > 0 ? Theme.gap + restHeight(size, ticketed) : 0)
+    // The lines of the card that has most, and how high the words of the higher one are.
+    function cardWords(size: real, width: real): var {
+        const heads = two.map(point => headLines(point, size, width)), bodies = two.map(point => bodyLines(point, size, width))
+        const talls = two.map((_, at) => page.pointHeight(heads[at], size) + page.pointHeight(bodies[at], bodyOf(size)))
+        return {heads: Math.max(...heads), bodies: Math.max(...bodies), tall: Math.max(...talls)}
     }
-    function cardsHeight(size: real, side: real, above: bool): real {
-        const width = wordsWidth(side, above)
-        const said = Math.max(...two.map(point => page.pointHeight(headLines(point, size, width), size) + page.pointHeight(bodyLines(point, size, width), bodyOf(size))))
-        return 2 * Theme.gap + (above ? side + 0.5 * Theme.gap + said : Math.max(side, said))
+    function cardsHeight(words: real, side: real, above: bool): real {
+        return 2 * Theme.gap + (above ? side + 0.5 * Theme.gap + words : Math.max(side, words))
+    }
+    // How high all rows but the cards are, with what is between them.
+    function othersHeight(size: real, ticketed: bool): real {
+        return leadHeight(page.all[0].text, size) + Theme.gap + (restOf(ticketed).length > 0 ? Theme.gap + restHeight(size, ticketed) : 0)
     }
     function leadHeight(text: string, size: real): real {
         const plain = plainSize(text, 0, size)
