@@ -49,7 +49,7 @@ consent-first =
        *[other] Para participar, marca las { $number } primeras
     }
 # In its place, once all of them have one. It must favour neither answer.
-consent-ready = Listo. Ahora elige abajo.
+consent-ready = Ya está. Ahora elige abajo.
 consent-agree = Participo
 # What follows, below each answer. Both lines are about as long.
 consent-agree-line = Guardamos tus datos.
