@@ -16,7 +16,8 @@ import os
 import sys
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from ctypes import CDLL
 from dataclasses import dataclass
 from itertools import count
 from operator import itemgetter
@@ -25,7 +26,9 @@ from statistics import linear_regression, quantiles
 from time import monotonic, process_time, thread_time
 
 import click
+from psutil import Process
 from PySide6.QtCore import QObject, Qt, QTimer
+from PySide6.QtQml import QQmlEngine
 
 from kiosk.cli.composition import read_settings
 from kiosk.experiment.outcomes import SessionKind, Stage
@@ -35,14 +38,17 @@ from kiosk.study.loader import read_study
 from kiosk.ui.app import App
 from kiosk.ui.condition_assigner import ConditionAssigner, RunContext
 from kiosk.ui.rehearsal import Rehearsal
-from kiosk.ui.rehearsed_day import draw_visitors, rehearse_day
+from kiosk.ui.rehearsed_day import KIB, draw_visitors, rehearse_day
 from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile
 from kiosk.ui.window import ClockMode, RunMode, WindowMode
 from kiosk.units import MS_PER_SECOND
 from tests.bench.stops import queued_ms, watched_stops
 
-WARM_UP = 30
+WARM_UP = 60
 """Sessions before memory is counted: pictures, fonts and sentences are loaded when they are first needed."""
+
+BLOCK = 10
+"""Of so many sessions the one counts after which least is held: the others hold more that is only about to go."""
 
 BEAT_MS = 5
 
@@ -127,16 +133,37 @@ def kiosk(folder: Path, mode: RunMode, robot: FlakyRobot | None = None) -> Itera
 
 
 def memory(folder: Path, sessions: int) -> None:
-    """Print what each session leaves behind, as a slope over those after the warm-up."""
+    """Print what each session leaves behind, as a slope over the lowest of each ten after the warm-up."""
+    held: list[int] = []
+    handles: list[int] = []
     with kiosk(folder, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL), FlakyRobot(1)) as app:
         visitors = list(draw_visitors(sessions, 1, app.assigner.study.languages))
-        held = list(rehearse_day(app, 1, visitors, folder))[min(WARM_UP, sessions // 2) :]
-    slope = linear_regression(range(len(held)), [each.memory_kib for each in held]).slope
-    handles = [each.handles for each in held]
+        for usage in rehearse_day(app, 1, visitors, folder):
+            held.append(_held_kib(app))
+            handles.append(usage.handles)
+    counted = min(WARM_UP, sessions // 2)
+    held, handles = held[counted:], handles[counted:]
+    block = min(BLOCK, len(held) // 2)
+    lowest = [min(held[at : at + block]) for at in range(0, len(held) - block + 1, block)]
+    slope = linear_regression(range(len(lowest)), lowest).slope / block
     click.echo(
-        f"memory: {slope:+.1f} KiB a session over {len(held)}, from {held[0].memory_kib} to {held[-1].memory_kib} KiB; "
-        f"handles: {handles[0]}, at most {max(handles)}, {handles[-1]} at the end"
+        f"memory: {slope:+.1f} KiB a session over {len(held)}, from {lowest[0]} to {lowest[-1]} KiB, "
+        f"at most {max(held)}; handles: {handles[0]}, at most {max(handles)}, {handles[-1]} at the end"
     )
+
+
+def _held_kib(app: App) -> int:
+    """Return what the process holds when garbage is collected and free memory given back, files left out."""
+    context = QQmlEngine.contextForObject(app.window)
+    if context is not None:
+        context.engine().collectGarbage()
+    gc.collect()
+    # The C library keeps what is free for what comes next.
+    with suppress(AttributeError, OSError):
+        CDLL("libc.so.6").malloc_trim(0)
+    process = Process()
+    usage = process.memory_info()
+    return int(usage.rss - getattr(usage, "shared", 0)) // KIB
 
 
 def gaps(folder: Path, sessions: int, speed: float) -> None:
@@ -196,13 +223,13 @@ def shares(folder: Path, seconds: float) -> None:
 def main() -> int:
     """Measure what is asked for."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("--sessions", type=int, default=200, help="sessions for memory, 3 or more; 0 leaves it out")
+    parser.add_argument("--sessions", type=int, default=200, help="sessions for memory, 4 or more; 0 leaves it out")
     parser.add_argument("--gaps", type=int, default=3, help="sessions in real time; 0 leaves them out")
     parser.add_argument("--speed", type=float, default=1, help="how many times as fast as people their visitors are")
     parser.add_argument("--seconds", type=float, default=60, help="time for each share; 0 leaves them out")
     asked = parser.parse_args()
-    if asked.sessions in (1, 2):
-        parser.error("--sessions: a slope needs 3 sessions or more")
+    if 0 < asked.sessions < 4:
+        parser.error("--sessions: a slope needs 4 sessions or more")
     os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
     measures = (
         (memory, asked.sessions),
