@@ -36,9 +36,12 @@ LAYOUTS = [WIDE, UPRIGHT, (1280, 800), (1366, 768)]
 
 
 def in_turn(*lists: Sequence[object]) -> list[tuple[object, ...]]:
-    """Combine these values; each combination is in one language, and the languages take turns."""
+    """Combine these values; each combination is in one language, and the languages take turns.
+
+    The last of them change least often: they are sizes, and a window of a new size is laid out anew.
+    """
     languages = sorted(CATALOGUES)
-    places = product(*(range(len(values)) for values in lists))
+    places = sorted(product(*(range(len(values)) for values in lists)), key=lambda place: place[-1])
     return [
         (*(values[place] for values, place in zip(lists, each, strict=True)), languages[sum(each) % len(languages)])
         for each in places
@@ -47,8 +50,9 @@ def in_turn(*lists: Sequence[object]) -> list[tuple[object, ...]]:
 
 @pytest.fixture(scope="module")
 def window(qapp: QGuiApplication) -> Iterator[Window]:  # noqa: ARG001 - Qt is to be there
-    """Open a window with no kiosk behind it."""
+    """Open a window with no kiosk behind it, and no page of a visitor, which would be laid out in each size."""
     with open_window(read_study(Settings())) as opened:
+        opened.screens.kiosk.show("")
         yield opened
 
 
@@ -60,6 +64,8 @@ def show(
     panel.open(is_open=False)
     window.shown.setProperty("textSize", text_size)
     window.shown.resize(*size)
+    # An open panel would be laid out and painted in the size before, too.
+    QCoreApplication.processEvents()
     told = CATALOGUES[language].text
     panel.set_language({name: told(name) for name in WORDS})
     shown = busy_day(language) | parts
