@@ -30,7 +30,7 @@ from kiosk.ui.event_loop import VirtualClock
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import BehaviourProfile, UiDriver, find_item, item_centre, lay_out
 from kiosk.ui.window import RunMode, Window
-from tests.ui.headless import HALF, PLAIN, headless, process_until
+from tests.ui.headless import HALF, PLAIN, free, headless, process_until, resize
 
 
 @pytest.fixture(scope="session")
@@ -46,6 +46,17 @@ def one_engine() -> Iterator[None]:
     yield
     Window.reuses_engine = False
     Window.drop_engine()
+
+
+LOOKS = {"textSize": 1.0, "highContrast": False, "boardOnRight": False}
+"""What tests change of a window beside its size, as it is in a study that says nothing of it."""
+
+
+@pytest.fixture(autouse=True)
+def freed() -> Iterator[None]:
+    """Free at the end of each test what Qt is to delete later, for the next one may have the same window."""
+    yield
+    free()
 
 
 @dataclass
@@ -191,6 +202,18 @@ def resting_booth(module_booth: Booth, qtbot: QtBot) -> Booth:
     screens.clear()
     screens.kiosk.show("attract")
     return module_booth
+
+
+@pytest.fixture
+def restored_booth(module_booth: Booth, request: pytest.FixtureRequest) -> Booth:
+    """Return that booth with the looks and the size that it had at first."""
+    window, screens = module_booth.app.window, module_booth.app.screens
+    resize(window, screens, *HALF.size)
+    for name, value in LOOKS.items():
+        window.setProperty(name, value)
+    # It shows a page again, which would be laid out for each of these.
+    rested: Booth = request.getfixturevalue("resting_booth")
+    return rested
 
 
 @pytest.fixture

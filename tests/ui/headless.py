@@ -8,7 +8,9 @@ from functools import cache
 from pathlib import Path
 from time import monotonic
 
+from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtGui import QGuiApplication
+from PySide6.QtQuick import QQuickWindow
 
 from kiosk.config import Settings
 from kiosk.experiment.condition import Condition
@@ -19,6 +21,7 @@ from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study
 from kiosk.ui.app import App
 from kiosk.ui.condition_assigner import ConditionAssigner, RunContext
+from kiosk.ui.screens.registry import ScreenSet
 from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
 from tests.patience import PATIENCE_S
 from tests.samples import SHORT
@@ -79,6 +82,34 @@ def process_until(holds: Callable[[], bool]) -> None:
     while not holds():
         QGuiApplication.processEvents()
         assert monotonic() < deadline, "what was waited for never came"
+
+
+def resize(window: QQuickWindow, screens: ScreenSet, width: int, height: int) -> None:
+    """Give a window this size while it shows no page, and let go of those that were made.
+
+    A page would be laid out and painted in both sizes, and again with each page after it, for as long as it is there.
+    """
+    ground = window.contentItem()
+    if (ground.width(), ground.height()) == (width, height):
+        return
+    screens.kiosk.show("")
+    let_go_of_pages(window)
+    window.resize(width, height)
+    process_until(lambda: (ground.width(), ground.height()) == (width, height))
+
+
+def let_go_of_pages(window: QQuickWindow) -> None:
+    """Let go of the pages that are out of sight: each would be laid out as often as the one in sight."""
+    for item in window.contentItem().childItems():
+        for page in (item, *item.childItems()):
+            if page.inherits("QQuickLoader") and page.property("shown") is not None:
+                page.setProperty("active", page.property("shown"))
+    free()
+
+
+def free() -> None:
+    """Free what Qt is to delete later: a test has no event loop, so it would be laid out again and again until then."""
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
 
 
 @contextmanager

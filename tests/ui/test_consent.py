@@ -46,6 +46,12 @@ Done = list[object]
 
 
 @pytest.fixture
+def booth(restored_booth: Booth) -> Booth:
+    """Return the booth that all tests of this module share."""
+    return restored_booth
+
+
+@pytest.fixture
 def done(booth: Booth) -> Done:
     """Return what is done on the consent page, which is shown."""
     did: Done = []
@@ -88,7 +94,6 @@ def test_nothing_is_ticked_beforehand_and_the_required_boxes_say_so(booth: Booth
     assert booth.sees("tag") == (page is SHORT)
 
 
-@pytest.mark.usefixtures("done")
 @pytest.mark.parametrize("language", ["en", "ar"])
 @pytest.mark.parametrize("size", [(1920, 1080), (1080, 1920)], ids=["wide", "upright"])
 def test_the_boxes_that_are_needed_stand_below_a_heading_and_the_others_below_a_word(
@@ -139,7 +144,6 @@ def test_the_heading_says_which_boxes_are_to_be_ticked(
         assert says(booth.item("consent-needed"), heading)
 
 
-@pytest.mark.usefixtures("done")
 @pytest.mark.parametrize("scale", [1.0, 1.15, 1.3])
 @pytest.mark.parametrize("sheet", SHEETS)
 @pytest.mark.parametrize("size", [(1920, 1080), (1080, 1920)], ids=["wide", "upright"])
@@ -247,16 +251,19 @@ def test_what_is_to_be_ticked_has_a_strong_edge_until_it_is(booth: Booth) -> Non
 
 def show_short(booth: Booth, qtbot: QtBot, language: str, size: tuple[int, int]) -> QQuickWindow:
     """Show a short page in this language in a window of this size."""
+    window = booth.app.window
+    # A page that stands there would be laid out in both sizes, and once for each of the steps that follow.
+    booth.app.screens.kiosk.show("")
+    window.resize(*size)
+    qtbot.waitUntil(lambda: window.contentItem().width() == size[0])
     booth.app.screens.set_language(WORDS.get(language, ENGLISH))
     booth.app.screens.kiosk.begin((language,), language, Settings().consent)
     booth.app.screens.consent.show(SHORT)
-    window = booth.app.window
-    window.resize(*size)
-    qtbot.waitUntil(lambda: window.contentItem().width() == size[0])
+    booth.app.screens.kiosk.show("consent")
+    booth.settle()
     return window
 
 
-@pytest.mark.usefixtures("done")
 @pytest.mark.parametrize("scale", [1.0, 1.3, 1.5])
 @pytest.mark.parametrize("language", ["en", "es", "it", "de", "ar"])
 @pytest.mark.parametrize("size", [(1920, 1080), (1080, 1920)], ids=["wide", "upright"])
@@ -285,7 +292,6 @@ def test_what_follows_from_either_answer_has_the_same_letters_at_the_same_height
             assert letters.bottom() <= answer.bottom() - 8
 
 
-@pytest.mark.usefixtures("done")
 @pytest.mark.parametrize("language", ["en", "es", "it", "de", "ar"])
 @pytest.mark.parametrize("size", [(1920, 1080), (1080, 1920)], ids=["wide", "upright"])
 def test_both_answers_have_room_around_their_words_and_are_clear_of_the_boxes(
@@ -428,7 +434,6 @@ def test_on_an_upright_screen_both_answers_share_the_width_and_back_stands_where
         assert place(booth.item("back")).center().y() == pytest.approx(back.center().y(), abs=1)
 
 
-@pytest.mark.usefixtures("done")
 @pytest.mark.parametrize("sheet", SHEETS)
 @pytest.mark.parametrize("size", [(1920, 1080), (1080, 1920)], ids=["wide", "upright"])
 def test_larger_texts_make_no_letters_of_a_box_smaller_and_keep_the_card(

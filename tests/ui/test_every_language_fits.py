@@ -35,7 +35,7 @@ from kiosk.ui.screens.registry import ScreenSet
 from kiosk.ui.simulated_visitor import UiDriver, find_item, lay_out
 from kiosk.ui.window import Window
 from tests import pseudo
-from tests.ui.headless import open_window
+from tests.ui.headless import let_go_of_pages, open_window
 
 SIZES = [(1280, 720), (720, 1280)]
 """Windows of the tests with further pages and languages.
@@ -442,10 +442,7 @@ def looks_between(layout: Layout, language: str, *, differ: bool) -> bool:
 def show_alone(window: Window, screen: str) -> None:
     """Show a screen and let go of pages out of sight: each would lay its texts out as often as this one."""
     window.screens.kiosk.show(screen)
-    for item in window.shown.contentItem().childItems():
-        for page in (item, *item.childItems()):
-            if page.inherits("QQuickLoader") and page.property("shown") is not None:
-                page.setProperty("active", page.property("shown"))
+    let_go_of_pages(window.shown)
 
 
 def resize(window: Window, width: int, height: int) -> None:

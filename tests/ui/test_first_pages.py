@@ -8,7 +8,6 @@ import pytest
 from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QFontMetricsF
 from PySide6.QtQuick import QQuickItem
-from pytestqt.qtbot import QtBot
 
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import ASSETS
@@ -16,6 +15,7 @@ from kiosk.experiment.information import Information, Page
 from kiosk.ui.simulated_visitor import lay_out
 from tests.samples import CATALOGUES, ENGLISH
 from tests.ui.conftest import Booth
+from tests.ui.headless import let_go_of_pages, resize
 from tests.ui.looking import items, lies_in, place, texts
 
 GERMAN = ASSETS / "templates" / "two-languages"
@@ -30,9 +30,10 @@ def booth(resting_booth: Booth) -> Booth:
     return resting_booth
 
 
-def shown(booth: Booth, qtbot: QtBot, screen: str, size: tuple[int, int], language: str = "en") -> QQuickItem:
+def shown(booth: Booth, screen: str, size: tuple[int, int], language: str = "en") -> QQuickItem:
     """Show a page in a window of this size; return what holds all of it."""
     window, screens = booth.app.window, booth.app.screens
+    resize(window, screens, *size)
     screens.set_language(WORDS[language])
     screens.kiosk.begin((language,), language, booth.app.assigner.study.settings.consent)
     screens.kiosk.offer_back(offered=screen != "about")
@@ -40,17 +41,16 @@ def shown(booth: Booth, qtbot: QtBot, screen: str, size: tuple[int, int], langua
     screens.about.show(Information.of(folder, "en" if language == "ar" else language).about)
     screens.age.ask(18)
     screens.kiosk.show(screen)
-    window.resize(*size)
-    qtbot.waitUntil(lambda: window.contentItem().width() == size[0])
+    let_go_of_pages(window)
     booth.settle()
     lay_out(window)
     ground: QQuickItem = window.contentItem()
     return ground
 
 
-def shown_instead(booth: Booth, qtbot: QtBot, size: tuple[int, int], page: Page) -> QQuickItem:
+def shown_instead(booth: Booth, size: tuple[int, int], page: Page) -> QQuickItem:
     """Show this page in the place of the shipped first one; return what holds all of it."""
-    ground = shown(booth, qtbot, "about", size)
+    ground = shown(booth, "about", size)
     booth.app.screens.about.show(page)
     booth.settle()
     lay_out(booth.app.window)
@@ -92,9 +92,9 @@ def paths_of(ground: QQuickItem) -> list[QRectF]:
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
 def test_each_step_of_the_first_page_is_a_card_with_a_drawing_and_a_heading_over_smaller_words(
-    booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
+    booth: Booth, size: tuple[int, int], language: str
 ) -> None:
-    steps = steps_of(shown(booth, qtbot, "about", size, language))
+    steps = steps_of(shown(booth, "about", size, language))
     assert len(steps) == 3
     looks, sides, places = set(), set(), set()
     for step in steps:
@@ -120,9 +120,9 @@ def test_each_step_of_the_first_page_is_a_card_with_a_drawing_and_a_heading_over
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
 def test_what_is_studied_stands_between_the_title_and_the_steps(
-    booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
+    booth: Booth, size: tuple[int, int], language: str
 ) -> None:
-    ground = shown(booth, qtbot, "about", size, language)
+    ground = shown(booth, "about", size, language)
     (visit,) = those(ground, "VisitSteps")
     heading, words = list(texts(visit))[:2]
     title, first = booth.item("page-title"), steps_of(ground)[0]
@@ -135,10 +135,8 @@ def test_what_is_studied_stands_between_the_title_and_the_steps(
 
 @pytest.mark.parametrize("language", ["en", "ar"])
 @pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
-def test_an_arrow_leads_from_each_step_to_the_next(
-    booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
-) -> None:
-    ground = shown(booth, qtbot, "about", size, language)
+def test_an_arrow_leads_from_each_step_to_the_next(booth: Booth, size: tuple[int, int], language: str) -> None:
+    ground = shown(booth, "about", size, language)
     steps = steps_of(ground)
     paths = paths_of(ground)
     assert len(paths) == len(steps) - 1
@@ -155,18 +153,16 @@ def test_an_arrow_leads_from_each_step_to_the_next(
             assert path.center().y() == pytest.approx(edges(drawing).center().y(), abs=1)
 
 
-def test_on_a_wide_screen_the_steps_end_where_the_cards_of_the_next_page_do(booth: Booth, qtbot: QtBot) -> None:
-    ends = {edges(step).bottom() for step in steps_of(shown(booth, qtbot, "about", SIZES[0]))}
+def test_on_a_wide_screen_the_steps_end_where_the_cards_of_the_next_page_do(booth: Booth) -> None:
+    ends = {edges(step).bottom() for step in steps_of(shown(booth, "about", SIZES[0]))}
     (end,) = ends
-    shown(booth, qtbot, "age", SIZES[0])
+    shown(booth, "age", SIZES[0])
     assert end == pytest.approx(edges(booth.item("age-yes")).bottom(), abs=4)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_on_an_upright_screen_what_a_visit_takes_ends_well_above_the_way_on(
-    booth: Booth, qtbot: QtBot, language: str
-) -> None:
-    ground = shown(booth, qtbot, "about", SIZES[1], language)
+def test_on_an_upright_screen_what_a_visit_takes_ends_well_above_the_way_on(booth: Booth, language: str) -> None:
+    ground = shown(booth, "about", SIZES[1], language)
     *_, words = texts(those(ground, "VisitSteps")[0])
     assert edges(steps_of(ground)[-1]).bottom() < edges(words).top()
     assert edges(booth.item("continue")).top() - edges(words).bottom() >= 40
@@ -174,12 +170,10 @@ def test_on_an_upright_screen_what_a_visit_takes_ends_well_above_the_way_on(
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_beside_a_robot_the_first_page_says_below_the_steps_what_a_visit_takes(
-    booth: Booth, qtbot: QtBot, language: str
-) -> None:
+def test_beside_a_robot_the_first_page_says_below_the_steps_what_a_visit_takes(booth: Booth, language: str) -> None:
     booth.app.screens.avatar.appear(present=False)
     try:
-        ground = shown(booth, qtbot, "about", SIZES[0], language)
+        ground = shown(booth, "about", SIZES[0], language)
         last = booth.app.screens.about.property("lines")[-1]["text"].split("\n")
         said = [str(text.property("text")) for text in texts(ground)]
         assert [text for text in said if text in last or text == "\n".join(last)]
@@ -192,11 +186,11 @@ def test_beside_a_robot_the_first_page_says_below_the_steps_what_a_visit_takes(
 @pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
 @pytest.mark.parametrize("long", [False, True], ids=["short", "long"])
 def test_a_first_page_of_any_number_of_paragraphs_says_all_of_them(
-    booth: Booth, qtbot: QtBot, size: tuple[int, int], count: int, *, long: bool
+    booth: Booth, size: tuple[int, int], count: int, *, long: bool
 ) -> None:
     paragraphs = [f"Heading {at}\n{'What is said there. ' * (12 if long else 1)}".strip() for at in range(count)]
     page = Page.model_validate({"title": "Here", "paragraphs": paragraphs, "signs": ["cards"] * count})
-    ground = shown_instead(booth, qtbot, size, page)
+    ground = shown_instead(booth, size, page)
     said = " ".join(str(text.property("text")) for text in texts(ground))
     # On a wide page, the helper says the last one if it is short.
     for at in range(count):
@@ -204,10 +198,10 @@ def test_a_first_page_of_any_number_of_paragraphs_says_all_of_them(
     assert not steps_of(ground) or (not booth.sees("more") and len(steps_of(ground)) <= 4)
 
 
-def test_a_list_of_many_steps_has_a_path_between_their_drawings(booth: Booth, qtbot: QtBot) -> None:
+def test_a_list_of_many_steps_has_a_path_between_their_drawings(booth: Booth) -> None:
     paragraphs = [f"Heading {at}\nWhat is said there." for at in range(6)]
     page = Page.model_validate({"title": "Here", "paragraphs": paragraphs, "signs": ["cards"] * 6})
-    ground = shown_instead(booth, qtbot, SIZES[0], page)
+    ground = shown_instead(booth, SIZES[0], page)
     discs = [edges(row.childItems()[0]) for row in those(ground, "SignedLine")]
     # The first line says what is studied.
     assert len(discs) == 5
@@ -221,9 +215,9 @@ def test_a_list_of_many_steps_has_a_path_between_their_drawings(booth: Booth, qt
 
 @pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
 def test_a_grown_up_and_a_smaller_child_are_portraits_in_the_middle_of_even_cards(
-    booth: Booth, qtbot: QtBot, size: tuple[int, int]
+    booth: Booth, size: tuple[int, int]
 ) -> None:
-    shown(booth, qtbot, "age", size)
+    shown(booth, "age", size)
     picture = booth.app.window.grabWindow()
     crowns = []
     for name in ("age-yes", "age-no"):
@@ -254,9 +248,9 @@ def test_a_grown_up_and_a_smaller_child_are_portraits_in_the_middle_of_even_card
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
 def test_each_rule_has_three_lines_at_most_and_all_of_them_the_same_letters(
-    booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str
+    booth: Booth, size: tuple[int, int], language: str
 ) -> None:
-    scenes = those(shown(booth, qtbot, "introduction", size, language), "Scene")
+    scenes = those(shown(booth, "introduction", size, language), "Scene")
     assert len(scenes) == 3
     looks, tops = set(), set()
     for scene in scenes:
@@ -275,12 +269,12 @@ def test_each_rule_has_three_lines_at_most_and_all_of_them_the_same_letters(
 @pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
 @pytest.mark.parametrize("helped", [True, False], ids=["helped", "alone"])
 def test_rules_beside_a_robot_have_three_lines_at_most(
-    booth: Booth, qtbot: QtBot, size: tuple[int, int], language: str, *, helped: bool
+    booth: Booth, size: tuple[int, int], language: str, *, helped: bool
 ) -> None:
     booth.app.screens.avatar.appear(present=False)
     booth.app.screens.introduction.show(helped=helped)
     try:
-        scenes = those(shown(booth, qtbot, "introduction", size, language), "Scene")
+        scenes = those(shown(booth, "introduction", size, language), "Scene")
         assert len(scenes) == (3 if helped else 2)
         for scene in scenes:
             assert sum(text.property("lineCount") for text in texts(scene)) <= 3
@@ -290,7 +284,7 @@ def test_rules_beside_a_robot_have_three_lines_at_most(
 
 
 @pytest.mark.parametrize("size", SIZES, ids=["wide", "upright"])
-def test_the_arrow_of_a_rule_stands_clear_of_the_edge(booth: Booth, qtbot: QtBot, size: tuple[int, int]) -> None:
-    scene = those(shown(booth, qtbot, "introduction", size), "Scene")[-1]
+def test_the_arrow_of_a_rule_stands_clear_of_the_edge(booth: Booth, size: tuple[int, int]) -> None:
+    scene = those(shown(booth, "introduction", size), "Scene")[-1]
     (arrow,) = those(scene, "Arrow")
     assert edges(arrow).top() - edges(scene).top() >= 18

@@ -45,11 +45,13 @@ def ask(
 ) -> list[list[QQuickItem]]:
     """Show these questions in a window of this size; returns the options of each that has some."""
     window, screens = booth.app.window, booth.app.screens
+    # A page that stands there would be laid out in both sizes, and once for each of the steps that follow.
+    screens.kiosk.show("")
+    window.resize(*size)
+    qtbot.waitUntil(lambda: window.contentItem().width() == size[0])
     screens.set_language(WORDS[language])
     screens.kiosk.begin((language,), language, booth.app.assigner.study.settings.consent)
     screens.kiosk.set_text_size(letters or TextSize.NORMAL)
-    window.resize(*size)
-    qtbot.waitUntil(lambda: window.contentItem().width() == size[0])
     screens.form.show(asked, 1, 1)
     screens.kiosk.show("form")
     booth.settle()

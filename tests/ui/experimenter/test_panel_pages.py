@@ -26,7 +26,7 @@ from kiosk.ui.experimenter.view_model import Row
 from kiosk.ui.simulated_visitor import find_item, lay_out
 from kiosk.ui.window import Window
 from tests.samples import CATALOGUES
-from tests.ui.headless import open_window
+from tests.ui.headless import free, open_window
 from tests.ui.looking import items, lies_in, of_kind, texts
 
 WIDE, UPRIGHT = (1920, 1080), (1080, 1920)
@@ -62,6 +62,7 @@ def show(
     """Show a page of the panel on a busy day, with other ``parts`` where they are given."""
     panel = window.screens.experimenter.parts[2]
     panel.open(is_open=False)
+    free()
     window.shown.setProperty("textSize", text_size)
     window.shown.resize(*size)
     # An open panel would be laid out and painted in the size before, too.
