@@ -400,8 +400,8 @@ def test_every_screen_fits_in_every_language_layout_and_text_size_and_breaks_no_
     window, study = kiosk
     screens = window.screens
     sizes = [TextSize.NORMAL, TextSize.LARGE if layout == SAME_SHAPE else TextSize.LARGEST]
-    screens.avatar.appear(present=not layout.robot)
     resize(window, layout.width, layout.height)
+    screens.avatar.appear(present=not layout.robot)
     plans = [(plan, list(moments(screens, replace(study, plans=(plan,))))) for plan in study.plans]
     # A page is made once, for all languages and sizes.
     for screen in dict.fromkeys(screen for _, screen, _ in plans[0][1]):
@@ -446,8 +446,8 @@ def show_alone(window: Window, screen: str) -> None:
 
 
 def resize(window: Window, width: int, height: int) -> None:
-    """Give a window its first screen and this size; with another page it takes longer."""
-    show_alone(window, "attract")
+    """Give a window this size, and nothing to show in it."""
+    show_alone(window, "")
     window.screens.avatar.clear()
     window.shown.resize(width, height)
     QCoreApplication.processEvents()
@@ -472,12 +472,12 @@ def shown_in(kiosk: tuple[Window, StudyConfig], layout: Layout, wanted: Sequence
     window, study = kiosk
     plan = next(plan for plan in study.plans if plan.language == "en")
     screens = window.screens
+    resize(window, layout.width, layout.height)
     screens.set_language(plan.catalogue)
     screens.kiosk.begin(SHIPPED, "en", plan.settings.consent)
     screens.kiosk.offer_back(offered=True)
     screens.kiosk.set_text_size(TextSize.NORMAL)
     screens.avatar.appear(present=not layout.robot)
-    resize(window, layout.width, layout.height)
     for moment, screen, fill in moments(screens, replace(study, plans=(plan,))):
         if moment in wanted:
             fill()
@@ -1228,6 +1228,7 @@ def test_words_over_everything_fit(opened: Window, study: StudyConfig, sizes: Se
     kiosk, shown = opened.screens.kiosk, opened.shown
     for text_size in sizes:
         resize(opened, 1920, 1080)
+        show_alone(opened, "attract")
         shown.setProperty("textSize", text_size)
         said = []
         for cover in (
@@ -1333,6 +1334,7 @@ def test_what_is_spoken_is_never_longer_than_its_bubble(
 ) -> None:
     catalogue = study.plans[0].catalogue
     resize(opened, width, height)
+    show_alone(opened, "attract")
     for text_size in sizes:
         opened.shown.setProperty("textSize", text_size)
         for message in ("introduction-speech", "practice-speech", "thanks-speech"):
