@@ -45,21 +45,32 @@ _REST = "fonts-noto-core, fonts-noto-extra or fonts-unifont"
 _UNDRAWN_CATEGORIES = frozenset(("Cc", "Cf", "Zl", "Zp", "Zs"))
 """Characters that are never seen."""
 
+_HAS_FONTS = "hasShippedFonts"
+"""The property of an application whose shipped fonts are loaded."""
+
 WITHIN_S = 60
 
 
 def use_fonts(own: Sequence[Path] = ()) -> None:
-    """Load the shipped fonts and a study's own, and write everything in them; other letters are the system's."""
+    """Load the shipped fonts and a study's own, and write everything in them; other letters are the system's.
+
+    For a further window the shipped ones are not loaded again: Qt would forget every letter that it has drawn.
+    """
     from PySide6.QtGui import QFont, QFontDatabase, QGuiApplication
 
-    for name in SHIPPED_FONTS:
-        QFontDatabase.addApplicationFont(str(ASSETS / "fonts" / name))
+    application = QGuiApplication.instance()
+    if application is None or not application.property(_HAS_FONTS):
+        for name in SHIPPED_FONTS:
+            QFontDatabase.addApplicationFont(str(ASSETS / "fonts" / name))
+        if application is not None:
+            application.setProperty(_HAS_FONTS, True)  # noqa: FBT003 - Qt's own
     families = [FAMILY]
     for file in own:
         families += QFontDatabase.applicationFontFamilies(QFontDatabase.addApplicationFont(str(file.absolute())))
     font = QFont()
     font.setFamilies(list(dict.fromkeys(families)))
-    QGuiApplication.setFont(font)
+    if font.families() != QGuiApplication.font().families():
+        QGuiApplication.setFont(font)
 
 
 @dataclass(frozen=True)

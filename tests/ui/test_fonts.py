@@ -8,11 +8,12 @@ from pathlib import Path
 import pytest
 from fontTools.fontBuilder import FontBuilder
 from fontTools.pens.ttGlyphPen import TTGlyphPen
+from PySide6.QtGui import QGuiApplication
 
 from kiosk import UserInputError, program
 from kiosk.config import ASSETS, Settings
 from kiosk.study.loader import read_study
-from kiosk.ui.fonts import Missing, missing_characters, package_of
+from kiosk.ui.fonts import FAMILY, Missing, missing_characters, package_of, use_fonts
 
 COMMAND = program("_display", "fonts")
 FORM = """
@@ -99,6 +100,16 @@ def test_a_joined_emoji_that_falls_into_its_parts_is_named(tmp_path: Path) -> No
 @pytest.mark.usefixtures("no_system_fonts")
 def test_the_shipped_texts_need_no_other_font() -> None:
     assert missing_characters(COMMAND, read_study(Settings())) == []
+
+
+def test_qt_keeps_the_letters_that_it_has_drawn_when_a_further_window_is_opened(qapp: QGuiApplication) -> None:
+    use_fonts()
+    forgotten: list[None] = []
+    listening = qapp.fontDatabaseChanged.connect(lambda: forgotten.append(None))
+    use_fonts()
+    qapp.fontDatabaseChanged.disconnect(listening)
+    assert forgotten == []
+    assert QGuiApplication.font().family() == FAMILY
 
 
 def test_a_font_that_is_not_there_is_refused(tmp_path: Path) -> None:
