@@ -142,6 +142,7 @@ class KioskScreen(QObject):
         self._asks = ""
         self._goes_back = self._goes_back if goes_back is None else goes_back
         self._start_input_guard()
+        # By now the page before is out of sight, and not laid out once more for this.
         self.controls.emit()
         self.expect("")
 
