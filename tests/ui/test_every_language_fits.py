@@ -599,12 +599,15 @@ def gaps(page: list[tuple[int, QRectF, QRectF, QRectF]]) -> list[int]:
 def test_scales_of_ratings_stand_at_the_same_places_on_all_pages(
     kiosk: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
-    places = {
-        (round(scale.x()), round(scale.center().y() - card.center().y()), round(scale.width()), round(scale.height()))
-        for page in rating_pages(kiosk, layout)
-        for _, card, _, scale in page
-    }
-    assert len(places) == 1
+    wide = layout.width > layout.height
+    places: dict[int, set[tuple[int, ...]]] = {}
+    for page in rating_pages(kiosk, layout):
+        for _, card, shown, scale in page:
+            at = (scale.x(), scale.center().y() - card.center().y(), scale.width(), scale.height())
+            # Below a statement of one line they stand higher.
+            places.setdefault(0 if wide else round(shown.height() / 50), set()).add(tuple(map(round, at)))
+    assert sorted(places) == ([0] if wide else [1, 2])
+    assert [len(found) for found in places.values()] == [1] * len(places)
 
 
 def test_ten_points_of_a_wide_page_are_as_large_as_five_and_stand_below_their_question_and_apart(
@@ -669,32 +672,31 @@ def test_statements_of_an_upright_page_end_at_one_distance_above_their_points(
     kiosk: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
     unit, distances = layout.height / 1920, []
-    depths: dict[int, set[tuple[int, int]]] = {}
+    depths: dict[int, set[int]] = {}
     for page in rating_pages(kiosk, layout, SIXTEEN + ASKED["trust"].items):
-        lines = max(round(shown.height() / (50 * unit)) for _, _, shown, _ in page)
         for _, card, shown, scale in page:
-            depths.setdefault(lines, set()).add((round(card.height()), round(scale.top() - card.top())))
+            depths.setdefault(round(shown.height() / (50 * unit)), set()).add(round(scale.top() - card.top()))
             distances.append(scale.top() - shown.bottom())
-            # There is air above two lines, too, and about as much below the points.
-            above, below = shown.top() - card.top(), card.bottom() - scale.bottom()
+            # There is as much air above the letters, which begin below the top of their line, as below the points.
+            above, below = shown.top() - card.top() + 15 * unit, card.bottom() - scale.bottom()
             assert min(above, below) >= 24 * unit
-            if shown.height() > 75 * unit:
-                assert above == pytest.approx(below, abs=14 * unit)
+            assert above == pytest.approx(below, abs=6 * unit)
+    # On each page, a statement of so many lines stands at one place.
     assert sorted(depths) == [1, 2]
-    assert len(depths[2]) == 1
+    assert [max(places) - min(places) <= 1 for places in depths.values()] == [True, True]
     assert min(distances) >= 20 * unit
     assert max(distances) - min(distances) <= 1
 
 
-def test_statements_of_one_line_alone_and_their_points_stand_in_the_middle_of_as_high_cards(
+def test_statements_of_one_line_and_of_two_stand_in_the_middle_of_as_high_cards(
     kiosk: tuple[Window, StudyConfig],
 ) -> None:
     mixed, alone = rating_pages(kiosk, Layout(1080, 1920), SIXTEEN[:4] + ASKED["trust"].items)
     assert {round(shown.height() / 50) for _, _, shown, _ in mixed} == {1, 2}
     assert {round(shown.height() / 50) for _, _, shown, _ in alone} == {1}
     assert len({round(card.height()) for _, card, _, _ in (*mixed, *alone)}) == 1
-    for _, card, shown, scale in alone:
-        assert shown.top() - card.top() == pytest.approx(card.bottom() - scale.bottom(), abs=14)
+    for _, card, shown, scale in (*mixed, *alone):
+        assert shown.top() - card.top() + 15 == pytest.approx(card.bottom() - scale.bottom(), abs=6)
 
 
 def test_a_long_statement_of_an_upright_page_takes_distances_and_its_page_needs_no_scrolling(
@@ -774,7 +776,7 @@ def test_cards_of_an_upright_page_of_ratings_stay_as_they_are_when_they_are_poin
 
 
 @pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)
-def test_the_words_for_the_ends_stand_once_above_the_points_of_a_page_of_ratings(
+def test_the_words_for_the_ends_stand_above_the_points_of_a_page_of_ratings_and_below_an_upright_one_s(
     kiosk: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
     ground, wide = kiosk[0].shown.contentItem(), layout.width > layout.height
@@ -785,8 +787,8 @@ def test_the_words_for_the_ends_stand_once_above_the_points_of_a_page_of_ratings
             [painted(text) for text in texts(ground) if text.property("text") == end["en"]]
             for end in (item.lowest, item.highest)
         ]
-        assert [len(places) for places in heads] == [1, 1]
-        (lowest,), (highest,) = heads
+        assert [len(places) for places in heads] == ([1, 1] if wide else [2, 2])
+        (lowest, *_), (highest, *_) = heads
         (_, first, _, points), *_ = page
         # They stand in a band that ends where the first card begins.
         band = find_item(ground, "table-head")
@@ -799,6 +801,18 @@ def test_the_words_for_the_ends_stand_once_above_the_points_of_a_page_of_ratings
         # One begins where the points do, and the other ends there.
         assert [lowest.left(), highest.right()] == pytest.approx([points.left(), points.right()], abs=2)
         assert lowest.right() + 20 < highest.left()
+        # The last ones of a long sheet are far from it: the same band stands at the foot.
+        foot = find_item(ground, "table-foot")
+        assert (foot is None) is wide
+        if foot is not None:
+            last, below = page[-1][1], whole(foot)
+            assert 0 <= last.bottom() - below.top() <= 4
+            assert (below.left(), below.right(), below.height()) == pytest.approx(
+                (last.left(), last.right(), whole(band).height()), abs=1
+            )
+            for (above, under), edge in zip(heads, ("left", "right"), strict=True):
+                assert below.contains(under)
+                assert getattr(above, edge)() == pytest.approx(getattr(under, edge)(), abs=1)
         # Each statement of a wide page has most of its card's width.
         assert not wide or points.left() > first.left() + 0.55 * first.width()
 
@@ -857,7 +871,7 @@ def test_a_page_with_fewer_ratings_has_the_first_cards_of_the_full_ones_and_leav
     kiosk: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
     ground, wide = kiosk[0].shown.contentItem(), layout.width > layout.height
-    pages, feet = {}, {}
+    pages, feet, ends = {}, {}, {}
     for number in (3, 2):
         for page in rating_pages(kiosk, layout, SIXTEEN[:4] + ASKED["trust"].items[:number]):
             back, on, why = (find_item(ground, name) for name in ("turned-away", "continue", "why-turned-away"))
@@ -866,17 +880,21 @@ def test_a_page_with_fewer_ratings_has_the_first_cards_of_the_full_ones_and_leav
             assert why is not None
             assert not painted(why).intersects(whole(on))
             pages[len(page)], feet[len(page)] = page, (whole(back), whole(on))
+            # A sheet of two needs no band at its foot.
+            foot = find_item(ground, "table-foot")
+            ends[len(page)] = page[-1][1].bottom() if foot is None else whole(foot).bottom()
+            assert (foot is not None) is (not wide and len(page) > 2)
     assert sorted(pages) == [2, 3, 4]
     for number in (2, 3):
         for before, after in zip(pages[4], pages[number], strict=False):
             assert after[1].getRect() == pytest.approx(before[1].getRect(), abs=1)
-            # Points of an upright page with short statements only are a little higher in their cards.
+            # Points of an upright page with short statements are a little higher in their cards.
             old, new = before[3], after[3]
             assert new.getRect() == pytest.approx((old.x(), new.y(), old.width(), old.height()), abs=1)
             assert old.y() - (1 if wide else 30) <= new.y() <= old.y() + 1
         # The helper's back begins below the last card, or below the way on, which follows the cards of an upright page.
         standing, below = feet[number]
-        last, gone = pages[number][-1][1], pages[4][-1][1].bottom() - pages[number][-1][1].bottom()
+        last, gone = pages[number][-1][1], ends[4] - ends[number]
         if wide:
             assert below.top() == pytest.approx(feet[4][1].top(), abs=1)
         else:

@@ -66,9 +66,10 @@ Item {
     // A word that the item is missed takes that of the margins of its row: rows stay where they are.
     readonly property real taken: rows.measured ? Math.max(0, told.height - rows.height) : 0
     // Letters have some air above them already; what stands below them does not.
-    readonly property real raised: crowned ? 5 * Theme.unit : page.alone && roomy === null || beside || inline || page.dense || stack !== null ? 0 : 4 * Theme.unit
+    readonly property real raised: crowned ? 5 * Theme.unit : stack !== null ? stack.raised : page.alone && roomy === null || beside || inline || page.dense ? 0 : 4 * Theme.unit
     // How far a statement on a sheet is from its points: a word that it is missed takes of that, and of the margin above.
-    readonly property real off: stack === null ? 0 : Math.max(6 * Theme.unit, Math.min(stack.spacing, stack.top - told.height + stack.margin - 9 * Theme.unit))
+    readonly property real off: stack === null ? 0 : Math.max(6 * Theme.unit, Math.min(stack.spacing, pointsAt - told.height + stack.margin - raised - 9 * Theme.unit))
+    readonly property real pointsAt: stack === null ? 0 : rows.pointsAt(question.lineCount)
     readonly property var ways: ({
         likert: points, differential: points, pictures: points, slider: line, single: choice, multiple: choice,
         integer: number, text: letters, page: null
@@ -170,7 +171,9 @@ Item {
     // How far its part of a sheet lies under the next one, whose edge is its own, too; the last is as high.
     readonly property bool last: page.after(index) === null
     readonly property real joint: rows.sheet === null || last ? 0 : rows.joint
-    height: head + content.height + 2 * margin + (rows.sheet !== null && last ? rows.joint : 0)
+    // How high the band at the foot of a sheet is, if it has one and this is the last part.
+    readonly property real foot: last && stack !== null ? rows.foot : 0
+    height: head + content.height + 2 * margin + (rows.sheet !== null && last ? rows.joint : 0) + foot
     // Its edge lies over those of its neighbours on a sheet.
     z: due || missed ? 1 : 0
 
@@ -184,16 +187,28 @@ Item {
         rightEnd: box.item.right ?? ""
         inset: box.page.inset
     }
+    TableHead {
+        objectName: "table-foot"
+        visible: box.foot > 0
+        y: box.height - height
+        width: box.width
+        height: box.foot + card.border.width
+        rows: box.rows
+        leftEnd: box.item.left ?? ""
+        rightEnd: box.item.right ?? ""
+        inset: box.page.inset
+        foot: true
+    }
     ItemCard {
         id: card
         // Parts of a sheet share the line between them.
-        anchors { fill: parent; topMargin: box.head; bottomMargin: -box.joint }
+        anchors { fill: parent; topMargin: box.head; bottomMargin: box.foot - box.joint }
         item: box.item.id
         bare: box.bare
         missed: box.missed
         due: box.due
         joinsAbove: box.rows.sheet !== null && (box.topped || !box.first)
-        joinsBelow: box.joint > 0
+        joinsBelow: box.joint > 0 || box.foot > 0
     }
 
     Column {
@@ -219,7 +234,7 @@ Item {
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
-                y: box.stack !== null ? box.stack.top - box.off - height : box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : 0
+                y: box.stack !== null ? box.pointsAt - box.off - height : box.crowned ? 0 : box.beside ? asked.axis - height / 2 : box.inline ? (asked.height - height) / 2 : 0
                 width: box.beside && !box.crowned ? box.rows.textWidth : box.inline ? asked.width - box.questions.fieldWidth : asked.width
                 spacing: box.inline || box.below && !box.ranged || box.rows.sheet ? 0 : box.page.solo ? 12 * Theme.unit : box.usualSpacing
                 Balanced {
@@ -278,7 +293,7 @@ Item {
                 id: way
                 readonly property real room: box.beside && !box.crowned ? box.rows.scaleWidth - box.rows.beyond : asked.width - box.rows.beyond
                 x: Theme.across(box.crowned ? 0 : box.beside ? asked.width - box.rows.scaleWidth : box.inline ? asked.width - width : 0, width, asked.width)
-                y: box.stack !== null ? box.stack.top : box.crowned ? asked.height - height : box.rows.flank ? asked.middle - height / 2 : box.rows.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.height + content.spacing
+                y: box.stack !== null ? box.pointsAt : box.crowned ? asked.height - height : box.rows.flank ? asked.middle - height / 2 : box.rows.own ? asked.axis - asked.scaled / 2 : box.inline ? (asked.height - height) / 2 : box.beside ? asked.middle - asked.scaled / 2 - asked.heads : told.height + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
@@ -288,7 +303,7 @@ Item {
                 active: box.item.exempts && box.rows.sheet !== null
                 visible: active
                 x: Theme.across(asked.width - width, width, asked.width)
-                y: box.stack !== null ? box.stack.top + (box.stack.point - height) / 2 : asked.middle - height / 2
+                y: box.stack !== null ? box.pointsAt + (box.stack.point - height) / 2 : asked.middle - height / 2
                 sourceComponent: exemption
             }
         }

@@ -21,12 +21,15 @@ QtObject {
 
     readonly property bool possible: !page.upright && !page.alone && !page.largeText
     // How much of the page's height the rows of a table leave. Hidden ones count: what depends on it stays where it is.
-    readonly property real left: sheet === null ? 0 : (stack !== null ? page.free - 12 * Theme.unit : page.cleared) - sheet.head - joint - page.items.length * (sheet.height + 2 * sheet.margin)
+    readonly property real left: sheet === null ? 0 : (stack !== null ? page.free - 12 * Theme.unit : page.cleared) - sheet.head - foot - joint - page.items.length * (sheet.height + 2 * sheet.margin)
     // How the rows of such a table look, all measures of them; null if they are none.
     readonly property var table: !possible || !alike() ? null : tabled()
     // How ratings by numbers look on an upright page; null if they do not fit so. They stand on a sheet as well, each scale
     // below its statement. Where not all have the same words for the ends, each has its own below it.
     readonly property var stack: page.upright && page.items.length > 1 && page.items.every(item => ["likert", "differential"].includes(item.kind)) ? stacked() : null
+    // How high the band below the last part of a sheet is, which names the ends again: those of the first are far from it.
+    readonly property real foot: page.seen().length >= long ? sheet?.foot ?? 0 : 0
+    readonly property int long: 3
     // What the parts of either look like, which have no distance between them.
     readonly property var sheet: table ?? stack
     // How wide the line between them is.
@@ -79,6 +82,10 @@ QtObject {
             return text
         const lines = widths.lines(item.shown, text, textWidth)
         return Math.min(text, (height + 2 * margin - 10 * Theme.unit - widths.leading * Theme.small) / widths.leading / (1 + closeness * (lines - 1)))
+    }
+    // Where points begin in their part of an upright page's sheet: a statement of so many lines and they are in the middle of it.
+    function pointsAt(lines: int): real {
+        return stack.top - Math.round(Math.max(0, stack.lines - lines) * 0.92 * widths.leading * stack.text / 2)
     }
     // Whether this scale stands beside its question.
     function beside(item: var): bool {
@@ -137,7 +144,7 @@ QtObject {
         return null
     }
     // How the sheet of an upright page looks in the first sizes in which it fits; null if it fits in none. All parts are as
-    // high as that of the longest statement, which the scales of all pages are as far below.
+    // high as that of the longest statement. A sheet that is long has a band at its foot as well, where that has room.
     function stacked(): var {
         const rows = Math.max(1, page.form.fullest, page.items.length), own = !same(), room = page.free - 12 * Theme.unit - joint
         for (const [pointUnits, endUnits, textUnits, most] of stackTrials) {
@@ -145,15 +152,16 @@ QtObject {
             const span = page.inner - exempting
             const head = own ? 0 : headHeight(end, span, 16)
             const lines = Math.max(0, ...page.wordings.map(asked => widths.lines(asked, text, page.inner)))
-            // On a page without such a long statement, all stand in the middle of that height.
-            const fewer = lines - Math.max(...page.items.map(item => widths.lines(item.shown, text, page.inner)))
-            const raised = Math.round(Math.max(0, fewer) * 0.92 * widths.leading * text / 2)
             // Where the points begin, and how much stands below that.
             const top = Math.ceil(widths.leading * text * (1 + 0.92 * (lines - 1)) + spacing)
             const height = top + Math.ceil(point + (own ? endsUnder + ownHeight(end, span) : 0))
-            const margin = Math.floor(Math.min(30 * Theme.unit, ((room - head) / rows - height) / 2))
-            if (lines <= most && margin >= (own ? 14 : 20) * Theme.unit)
-                return {point, end, own, beyond: exempting, text, spacing, top: top - raised, height, margin, head, room: (of, other) => endRoom(of, other, end, span)}
+            // How large the margins are that a word that an item is missed has room in, with some of the spacing.
+            const noted = Math.max(20 * Theme.unit, widths.leading * Theme.small + 6 * Theme.unit - spacing)
+            for (const foot of own || rows < long ? [0] : [head, 0]) {
+                const margin = Math.floor(Math.min((foot > 0 ? 26 : 30) * Theme.unit, ((room - head - foot) / rows - height) / 2))
+                if (lines <= most && margin >= (foot > 0 ? noted : (own ? 14 : 20) * Theme.unit))
+                    return {point, end, own, beyond: exempting, text, spacing, lines, top, height, margin, raised: Math.max(0, Math.min(8 * Theme.unit, margin - noted)), head, foot, room: (of, other) => endRoom(of, other, end, span)}
+            }
         }
         return null
     }
