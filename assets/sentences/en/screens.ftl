@@ -36,16 +36,28 @@ consent-required = needed
 consent-optional = up to you
 consent-agreed = agreed
 consent-missing = Please tick this box if you want to take part.
-# Over the boxes, as long as some that are needed have no tick: if all are needed, and if others follow.
+# Over the boxes, as long as some that are needed have no tick: if all are needed, and if others follow. It is for both
+# answers, and begins with the refusal's words.
 consent-to-go =
     { $number ->
-        [one] To take part, tick the box
-       *[other] To take part, tick the { $number } boxes
+        [one] Just play, or tick the box
+       *[other] Just play, or tick the { $number } boxes
     }
 consent-first =
     { $number ->
-        [one] To take part, tick the first box
-       *[other] To take part, tick the first { $number }
+        [one] Just play, or tick the first box
+       *[other] Just play, or tick the first { $number }
+    }
+# The same boxes, below the words of the answer that needs them.
+consent-to-go-line =
+    { $number ->
+        [one] Tick the box.
+       *[other] Tick the { $number } boxes.
+    }
+consent-first-line =
+    { $number ->
+        [one] Tick the first box.
+       *[other] Tick the first { $number } boxes.
     }
 # In its place, once all of them have one. It must favour neither answer.
 consent-ready = All set. Now choose below.

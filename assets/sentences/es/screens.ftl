@@ -37,16 +37,28 @@ consent-required = necesario
 consent-optional = como prefieras
 consent-agreed = de acuerdo
 consent-missing = Si quieres participar, marca esta casilla.
-# Over the boxes, as long as some that are needed have no tick: if all are needed, and if others follow.
+# Over the boxes, as long as some that are needed have no tick: if all are needed, and if others follow. It is for both
+# answers, and begins with the refusal's words.
 consent-to-go =
     { $number ->
-        [one] Para participar, marca la casilla
-       *[other] Para participar, marca las { $number } casillas
+        [one] Solo juega, o marca la casilla
+       *[other] Solo juega, o marca las { $number } casillas
     }
 consent-first =
     { $number ->
-        [one] Para participar, marca la primera casilla
-       *[other] Para participar, marca las { $number } primeras
+        [one] Solo juega, o marca la primera casilla
+       *[other] Solo juega, o marca las { $number } primeras
+    }
+# The same boxes, below the words of the answer that needs them.
+consent-to-go-line =
+    { $number ->
+        [one] Marca la casilla.
+       *[other] Marca las { $number } casillas.
+    }
+consent-first-line =
+    { $number ->
+        [one] Marca la primera casilla.
+       *[other] Marca las { $number } primeras casillas.
     }
 # In its place, once all of them have one. It must favour neither answer.
 consent-ready = Ya está. Ahora elige abajo.

@@ -37,16 +37,28 @@ consent-required = necessario
 consent-optional = come preferisci
 consent-agreed = d'accordo
 consent-missing = Se vuoi partecipare, spunta questa casella.
-# Over the boxes, as long as some that are needed have no tick: if all are needed, and if others follow.
+# Over the boxes, as long as some that are needed have no tick: if all are needed, and if others follow. It is for both
+# answers, and begins with the refusal's words.
 consent-to-go =
     { $number ->
-        [one] Per partecipare, spunta la casella
-       *[other] Per partecipare, spunta le { $number } caselle
+        [one] Gioca e basta, o spunta la casella
+       *[other] Gioca e basta, o spunta le { $number } caselle
     }
 consent-first =
     { $number ->
-        [one] Per partecipare, spunta la prima casella
-       *[other] Per partecipare, spunta le prime { $number }
+        [one] Gioca e basta, o spunta la prima casella
+       *[other] Gioca e basta, o spunta le prime { $number }
+    }
+# The same boxes, below the words of the answer that needs them.
+consent-to-go-line =
+    { $number ->
+        [one] Spunta la casella.
+       *[other] Spunta le { $number } caselle.
+    }
+consent-first-line =
+    { $number ->
+        [one] Spunta la prima casella.
+       *[other] Spunta le prime { $number } caselle.
     }
 # In its place, once all of them have one. It must favour neither answer.
 consent-ready = Tutto qui. Ora scegli qui sotto.

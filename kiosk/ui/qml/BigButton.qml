@@ -15,8 +15,6 @@ Button {
     property bool quiet: false
     // A quiet one that is the way on, once what the page asks for is done: it looks at rest until then, unlike all that can be chosen.
     property bool waits: false
-    // Whether one that is a main one has its colours the other way round, as long as something else is to be done first.
-    property bool light: false
     // A few words more, such as why it waits: after the words, where it is wide enough. Both are one group in its middle.
     property string note: ""
     // How far it is from the words there.
@@ -78,7 +76,7 @@ Button {
         textFormat: Text.PlainText
         text: button.words
         font: button.font
-        color: !button.quiet ? button.light ? Theme.sea : Theme.white : button.waits ? Theme.faintInk : Theme.sea
+        color: !button.quiet ? Theme.white : button.waits ? Theme.faintInk : Theme.sea
         horizontalAlignment: Text.AlignHCenter
         verticalAlignment: Text.AlignVCenter
         // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
@@ -112,16 +110,16 @@ Button {
         wrapMode: button.underLines > 1 ? Text.Wrap : Text.NoWrap
         horizontalAlignment: Text.AlignHCenter
         verticalAlignment: Text.AlignVCenter
-        color: button.light ? Theme.sea : Theme.white
+        color: Theme.white
         Accessible.ignored: true
     }
     background: Rectangle {
         id: ground
         radius: Math.min(height / 2, button.topPadding + button.font.pixelSize, button.corner)
-        color: button.waits ? Theme.resting : button.quiet ? "transparent" : button.light ? button.hovered ? Theme.touchable : Theme.white : button.hovered ? Theme.lightSea : Theme.sea
+        color: button.waits ? Theme.resting : button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
         // Without an edge it looks at rest. With high contrast the edge is all that shows where it is.
-        border.color: button.waits ? Theme.slot : button.light ? Theme.sea : Theme.shy
-        border.width: button.waits && !Theme.highContrast ? 0 : button.light ? 3 * Theme.unit : button.quiet || button.waits ? 3 * Theme.unit : 0
+        border.color: button.waits ? Theme.slot : Theme.shy
+        border.width: button.waits && !Theme.highContrast ? 0 : button.quiet || button.waits ? 3 * Theme.unit : 0
         FocusRing {
             around: button
             radius: ground.radius + reach

@@ -16,12 +16,12 @@ PageFrame {
     aside: short ? sayable(consent.points) : ""
     readonly property var read: aside === "" ? consent.points : consent.points.slice(0, -1)
 
-    // The page has the largest letters with which points and boxes are all seen at once: in points, in boxes, how many gaps
-    // are above and below the words of a box, and how many between boxes. Whether even the smallest are too large.
+    // The page has the largest letters with which points and boxes are all seen at once: in both, how many gaps are above and
+    // below the words of a box, and how many between boxes. Whether even the smallest are too large.
     readonly property bool upright: width < height
-    readonly property var sizes: upright ? [[34, 38, 0.9, 0.9], [34, 37, 0.75, 0.8], [34, 36, 0.6, 0.7], [32, 36, 0.45, 0.6], [32, 34, 0.4, 0.5], [31, 33, 0.35, 0.5], [30, 31, 0.3, 0.4], [30, 29, 0.25, 0.4]]
-        : [[32, 35, 1, 0.8], [32, 35, 0.85, 0.7], [32, 34, 0.7, 0.65], [32, 34, 0.5, 0.6], [31, 32, 0.4, 0.5], [30, 31, 0.3, 0.4], [29, 29, 0.25, 0.4]]
-    readonly property int fitting: short ? sizes.findIndex(([point, box, inside, apart]) => tall(point, box, inside, apart) <= pane.room) : -1
+    readonly property var sizes: upright ? [[38, 0.9, 0.9], [37, 0.75, 0.8], [36, 0.6, 0.7], [36, 0.45, 0.6], [34, 0.4, 0.5], [33, 0.35, 0.5], [31, 0.3, 0.4], [29, 0.25, 0.4]]
+        : [[35, 1, 0.8], [35, 0.85, 0.7], [34, 0.7, 0.65], [34, 0.5, 0.6], [32, 0.4, 0.5], [31, 0.3, 0.4], [29, 0.25, 0.4]]
+    readonly property int fitting: short ? sizes.findIndex(([letters, inside, apart]) => tall(letters, inside, apart) <= pane.room) : -1
     readonly property bool tight: fitting < 0
     readonly property var used: sizes[tight ? sizes.length - 1 : Math.min(fitting, sizes.length - 1)]
     // Large texts need the room themselves.
@@ -29,7 +29,7 @@ PageFrame {
     readonly property real tagSize: Theme.size(30)
     // How high the word is that stands over the boxes that are up to the visitor, with the air above and below it.
     readonly property real tagTall: Math.ceil(1.37 * tagSize) + 0.75 * Theme.gap
-    readonly property real between: used[3] * Theme.gap
+    readonly property real between: used[2] * Theme.gap
     readonly property real pointGap: (Theme.textSize > 1.15 ? 0.4 : upright ? 0.6 : 0.5) * Theme.gap
     // How wide a drawing is for its letters.
     readonly property real badge: 1.7
@@ -42,11 +42,11 @@ PageFrame {
         id: widths
     }
     // About how high points and boxes are, with letters of these sizes and so many gaps.
-    function tall(pointSize: real, boxSize: real, inside: real, apart: real): real {
-        const [point, box] = [pointSize, boxSize].map(size => Math.round(Theme.size(size))), count = consent.purposes.length
-        const points = read.map(each => Math.max(badge * point, 1.48 * point * widths.plainLines(each.text, point, column - badge * point - Theme.gap)))
+    function tall(letters: real, inside: real, apart: real): real {
+        const size = Math.round(Theme.size(letters)), count = consent.purposes.length
+        const points = read.map(each => Math.max(badge * size, 1.48 * size * widths.plainLines(each.text, size, column - badge * size - Theme.gap)))
         const boxes = consent.purposes.map(purpose => 2 * inside * Theme.gap + Math.max(64 * Theme.unit,
-            lineOf(box) * widths.plainLines(purpose.text, box, column - 136 * Theme.unit)))
+            lineOf(size) * widths.plainLines(purpose.text, size, column - 136 * Theme.unit)))
         return sum(points) + (read.length - 1) * pointGap + Theme.gap + 1.37 * heads
             + sum(boxes) + count * apart * Theme.gap + (count > needed ? tagTall : 0)
     }
@@ -57,28 +57,26 @@ PageFrame {
     function sum(heights: var): real {
         return heights.reduce((all, each) => all + each, 0)
     }
-    // How wide a point is: where that costs no further line, it leaves the end of its line to the button for all of the text.
-    function pointWidth(index: int): real {
-        const size = Math.round(Theme.size(used[0])), taken = badge * size + Theme.gap, least = column - toggle.width - 1.5 * Theme.gap
-        return widths.plainLines(read[index]?.text ?? "", size, least - taken) === widths.plainLines(read[index]?.text ?? "", size, column - taken) ? least : column
-    }
-    // Whether that stands at the points, or else in the line of the title.
-    readonly property bool placed: roomy && pointWidth(read.length - 1) < column
 
     title: consent.title
+    // A title that nearly leaves the button beside it its line does so with letters a little smaller.
+    titleSize: {
+        const fits = Theme.pageTitle * (column - toggle.width - 1.2 * Theme.gap) / Math.max(1, widths.bold(title, Theme.pageTitle))
+        return fits >= 0.8 * Theme.pageTitle ? Math.min(Theme.pageTitle, Math.floor(fits)) : Theme.pageTitle
+    }
     label: words["consent-agree"]
     other: words["consent-decline"]
     way.name: "agree"
     way.even: true
-    // What is to be done first stands out: as long as boxes are to be ticked, both answers are light, and then both are dark.
-    way.light: consent.toGo !== ""
-    way.follows: words["consent-agree-line"]
+    // Both answers look the same at all times. What one of them still needs is said within it.
+    way.follows: consent.toGoLine || way.later
+    way.later: words["consent-agree-line"]
     way.otherFollows: words["consent-decline-line"]
-    way.reason: consent.toGo || way.follows
+    way.reason: way.follows
     way.otherName: "decline"
     onWent: consent.agree()
     onTurnedDown: consent.decline()
-    // Those who cannot see the answers change hear of it.
+    // Those who cannot see the heading change hear of it.
     readonly property string heard: consent.toGo || words["consent-ready"]
     onHeardChanged: if (visible) home.Accessible.announce(heard, Accessible.Polite)
     onVisibleChanged: {
@@ -95,19 +93,19 @@ PageFrame {
         objectName: "read-more"
         visible: view.besides
         most: 0.45 * view.column
-        // At the points, unless they scroll. Else right after the title on a wide screen, away from the steps of the visit; at the end of the line where it would
-        // nearly reach that.
-        readonly property bool low: view.placed && !pane.long
+        // Beside the title, as it is about the whole page: right after it on a wide screen, away from the steps of the visit;
+        // at the end of the line where it would nearly reach that.
         readonly property real after: view.titleWidth + 40 * Theme.unit
-        readonly property bool follows: !low && !view.upright && view.titleInOneLine && after + width + 2 * Theme.gap <= view.column
+        readonly property bool follows: !view.upright && view.titleInOneLine && after + width + 2 * Theme.gap <= view.column
         x: Theme.across(follows ? after : view.column - width, width, view.column)
-        // Level with the points or the last of them. Or with the title's letters, and above the content where it is higher
-        // than they are.
-        y: low ? home.y + points.level - height / 2 : Math.min(-height - Theme.gap, view.titleMiddle - height / 2)
+        // Level with the title's letters, and above the content where it is higher than they are.
+        y: Math.min(-height - Theme.gap, view.titleMiddle - height / 2)
         quiet: true
         font.pixelSize: Theme.reading
         horizontalPadding: 34 * Theme.unit
         verticalPadding: 14 * Theme.unit
+        // As wide whichever it says: the title beside it keeps its lines, and what is pressed its place.
+        least: Math.ceil(Math.max(...["consent-more", "consent-less"].map(name => widths.bold(view.words[name], font.pixelSize)))) + 2 + 2 * horizontalPadding
         words: view.words[view.whole ? "consent-less" : "consent-more"]
         onClicked: {
             view.whole = !view.whole
@@ -137,21 +135,11 @@ PageFrame {
                 visible: view.short
                 width: pane.width
                 spacing: view.pointGap
-                // The middle of those beside which the button for all of the text has room.
-                readonly property real level: {
-                    let from = height
-                    for (let i = lines.count - 1; i >= 0 && view.pointWidth(i) < view.column; i--)
-                        from = lines.itemAt(i)?.y ?? from
-                    return (from + height) / 2
-                }
                 Repeater {
-                    id: lines
                     model: view.short ? view.read : []
                     SignedLine {
                         required property var modelData
-                        required property int index
-                        x: Theme.across(0, width, points.width)
-                        width: view.placed ? view.pointWidth(index) : points.width
+                        width: points.width
                         text: modelData.text
                         sign: modelData.sign
                         badge: (view.roomy ? view.badge : 2.1) * size
@@ -256,9 +244,9 @@ PageFrame {
                                 y: purpose.parts ? view.tagTall : 0
                                 width: parent.width
                                 large: view.roomy
-                                font.pixelSize: !large ? Theme.reading : Theme.size(view.used[1])
+                                font.pixelSize: !large ? Theme.reading : Theme.size(view.used[0])
                                 horizontalPadding: (large ? 24 : 17) * Theme.unit
-                                verticalPadding: (large ? view.used[2] : view.short ? 0.25 : 0.45) * Theme.gap
+                                verticalPadding: (large ? view.used[1] : view.short ? 0.25 : 0.45) * Theme.gap
                                 words: purpose.modelData.text
                                 needed: purpose.modelData.required
                                 headed: view.grouped

@@ -23,20 +23,21 @@ FocusScope {
     property string other: ""
     // Whether both are alike: as large, and with the same look, so that the page favours neither.
     property bool even: false
-    // Whether they are light until something else is done: both at once, so that they stay alike.
-    property bool light: false
     // What follows from each, in smaller letters below its words.
     property string follows: ""
     property string otherFollows: ""
+    // What the first of these lines says later, if it changes: letters that fit both keep their size.
+    property string later: ""
+    readonly property var lines: [follows, otherFollows, later]
     readonly property bool lined: follows !== "" && otherFollows !== ""
     // The same letters for both, as large as leaves each in one line.
-    readonly property real lineRoom: (halved ? half : level ? share : pile) - 2 * Theme.gap
+    readonly property real lineRoom: (halved ? half : level ? share : pile) - 2.2 * Theme.gap
     readonly property real lineSize: {
-        const most = Theme.size(fills ? 30 : 29)
-        return Math.max(24 * Theme.unit, Math.min(most, most * 0.97 * lineRoom / Math.max(1, ...[follows, otherFollows].map(text => widths.plain(text, most)))))
+        const most = Theme.size(32)
+        return Math.max(24 * Theme.unit, Math.min(most, most * 0.97 * lineRoom / Math.max(1, ...lines.map(text => widths.plain(text, most)))))
     }
     // On how many lines they stand where even small ones are too long for that.
-    readonly property int lineCount: Math.max(...[follows, otherFollows].map(text => widths.plainLines(text, lineSize, lineRoom)))
+    readonly property int lineCount: Math.max(...lines.map(text => widths.plainLines(text, lineSize, lineRoom)))
     property string name: "continue"
     property string otherName: ""
     // Two that are alike stand beside each other with the largest letters that leave each in one line on a wide page, and in
@@ -69,7 +70,7 @@ FocusScope {
     readonly property bool level: !fills && abreast !== undefined
     // Where their words are too long for that, one stands above the other.
     readonly property bool beside: even && goes && refuses ? level : wish <= width
-    readonly property real share: abreast?.[1] === 2 ? spread(letters) : lined ? Math.min(spread(letters), Math.max(470 * Theme.unit, named))
+    readonly property real share: abreast?.[1] === 2 ? spread(letters) : lined ? Math.min(spread(letters), Math.max(510 * Theme.unit, named))
         : Math.max(go.least, named)
     // How wide the words of either need them.
     readonly property real named: Math.ceil(Math.max(widths.bold(label, letters), widths.bold(other, letters))) + 2 + 2 * padding
@@ -138,7 +139,6 @@ FocusScope {
         height: Math.round(ways.even && ways.refuses ? Math.max(implicitHeight, no.implicitHeight) : implicitHeight)
         corner: ways.abreast ? no.topPadding + no.font.pixelSize : Infinity
         quiet: ways.quiet
-        light: ways.even && ways.light
         under: ways.lined ? ways.follows : ""
         underSize: ways.lineSize
         underLines: ways.lineCount
@@ -164,7 +164,6 @@ FocusScope {
         y: ways.level ? go.y : 0
         height: ways.even ? go.height : implicitHeight
         quiet: !ways.even
-        light: ways.even && ways.light
         under: ways.lined ? ways.otherFollows : ""
         underSize: ways.lineSize
         underLines: ways.lineCount

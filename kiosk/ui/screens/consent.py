@@ -114,13 +114,21 @@ class ConsentScreen(QObject):
 
     @Property(str, notify=marked)
     def toGo(self) -> str:  # noqa: N802 - QML's convention
-        """Return which boxes are to be ticked to take part; empty once all of them are."""
+        """Return the choice between the refusal and the boxes that are to be ticked; empty once all of them are."""
+        return self._name_boxes("")
+
+    @Property(str, notify=marked)
+    def toGoLine(self) -> str:  # noqa: N802 - QML's convention
+        """Return which boxes are to be ticked to take part, in short; empty once all of them are."""
+        return self._name_boxes("-line")
+
+    def _name_boxes(self, kind: str) -> str:
         if self._page is None or not self.needed:
             return ""
         required = [purpose.required for purpose in self._page.purposes]
         number = sum(required)
         come_first = number < len(required) and all(required[:number])
-        return self._catalogue.text("consent-first" if come_first else "consent-to-go", number=number)
+        return self._catalogue.text(("consent-first" if come_first else "consent-to-go") + kind, number=number)
 
     @Slot(str, bool)
     def tick(self, purpose: str, ticked: bool) -> None:  # noqa: FBT001 - QML gives no names

@@ -36,16 +36,28 @@ consent-required = nötig
 consent-optional = wie du möchtest
 consent-agreed = einverstanden
 consent-missing = Bitte kreuze das an, wenn du teilnehmen möchtest.
-# Over the boxes, as long as some that are needed have no tick: if all are needed, and if others follow.
+# Over the boxes, as long as some that are needed have no tick: if all are needed, and if others follow. It is for both
+# answers, and begins with the refusal's words.
 consent-to-go =
     { $number ->
-        [one] Kreuze zur Teilnahme das Kästchen an
-       *[other] Kreuze zur Teilnahme die { $number } Kästchen an
+        [one] Spiel nur, oder kreuze das Kästchen an
+       *[other] Spiel nur, oder kreuze die { $number } Kästchen an
     }
 consent-first =
     { $number ->
-        [one] Kreuze zur Teilnahme das erste Kästchen an
-       *[other] Kreuze zur Teilnahme die ersten { $number } an
+        [one] Spiel nur, oder kreuze das erste Kästchen an
+       *[other] Spiel nur, oder kreuze die ersten { $number } an
+    }
+# The same boxes, below the words of the answer that needs them.
+consent-to-go-line =
+    { $number ->
+        [one] Kreuze das Kästchen an.
+       *[other] Kreuze die { $number } Kästchen an.
+    }
+consent-first-line =
+    { $number ->
+        [one] Kreuze das erste Kästchen an.
+       *[other] Kreuze die ersten { $number } Kästchen an.
     }
 # In its place, once all of them have one. It must favour neither answer.
 consent-ready = Das ist alles. Wähle jetzt unten.
