@@ -12,10 +12,11 @@ from kiosk.experiment.outcomes import Status
 from kiosk.experiment.replay import replay_events
 from kiosk.store.queries import open_repository
 from kiosk.ui.input import CHOICES_KEPT_MS
+from kiosk.ui.simulated_visitor import lay_out
 from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import SMALL
-from tests.ui.looking import appearance, place
+from tests.ui.looking import appearance, of_kind, painted, place, texts
 from tests.ui.reaching import Finger, Keyboard
 
 CONTROLS = ("control-stop", "control-language", "control-text-size", "control-sound")
@@ -111,12 +112,33 @@ def test_to_stop_looks_like_to_go_on(
     on, stop = reading.item("stop-no"), reading.item("stop-yes")
     picture = window.grabWindow()
     assert appearance(stop, picture) == appearance(on, picture)
-    # Large Spanish words have an upright card's width each; there too the way on is the first that is read.
-    stacked = (language, size[0], scale) == ("es", 540, 1.5)
-    assert (place(stop).top() > place(on).bottom()) is stacked
-    assert (place(stop).left() == place(on).left()) is stacked
+    assert place(stop).top() == place(on).top()
+    signs = [of_kind(button, "Sign") for button in (on, stop)]
+    assert [len(each) for each in signs] == [1, 1]
+    (first,), (second,) = signs
+    assert (first.width(), first.height(), first.property("color")) == (
+        second.width(),
+        second.height(),
+        second.property("color"),
+    )
+    assert first.property("sign") != second.property("sign")
     reading.press(Qt.Key.Key_Return)
     assert reading.screen == "about"
+
+
+def test_answers_too_long_to_stand_beside_each_other_stand_below_and_the_way_on_is_first(reading: Booth) -> None:
+    reading.click("control-stop")
+    on, stop = reading.item("stop-no"), reading.item("stop-yes")
+    stop.setProperty("words", "Stop at once and leave all this")
+    reading.settle()
+    lay_out(reading.app.window)
+    assert place(stop).top() > place(on).bottom()
+    assert place(stop).left() == place(on).left()
+    assert stop.size() == on.size()
+    for button in (on, stop):
+        (sign,) = of_kind(button, "Sign")
+        words = next(each for each in texts(button) if each.property("text") == button.property("words"))
+        assert place(sign).right() < painted(words).left()
 
 
 @pytest.mark.parametrize("kept", ["keep", "delete"])

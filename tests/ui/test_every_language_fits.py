@@ -1324,7 +1324,7 @@ def test_a_card_over_everything_lies_in_the_window_with_all_that_stands_on_it(
 
 
 @pytest.mark.parametrize("layout", LAYOUTS[:4], ids=str)
-def test_the_frame_of_a_code_is_as_far_from_its_words_above_as_below(
+def test_the_ticket_of_a_code_is_as_far_from_its_words_above_as_below(
     whole_window: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
     window, study = whole_window
@@ -1334,15 +1334,21 @@ def test_the_frame_of_a_code_is_as_far_from_its_words_above_as_below(
     kiosk.ask("stop")
     lay_out(shown)
     code = find_item(shown.contentItem(), "noted")
+    on, stop = (find_item(shown.contentItem(), f"stop-{answer}") for answer in ("no", "yes"))
     assert code is not None
-    frame = whole(code.parentItem().parentItem())
-    told = min(texts(code.parentItem()), key=lambda text: whole(text).top())
-    first, last = (QFontMetricsF(text.property("font")) for text in (told, code))
-    above = whole(told).top() + first.ascent() - first.capHeight() - frame.top()
-    below = frame.bottom() - whole(code).top() - last.ascent()
-    least = 28 * min(layout.width, layout.height) / 1080
+    assert on is not None
+    assert stop is not None
+    ticket = code.parentItem().parentItem()
+    frame = whole(ticket)
+    written = [(whole(text), QFontMetricsF(text.property("font"))) for text in texts(ticket)]
+    assert len(written) == 3
+    above = min(place.top() + font.ascent() - font.capHeight() for place, font in written) - frame.top()
+    below = frame.bottom() - max(place.bottom() - font.descent() for place, font in written)
+    least = 27 * min(layout.width, layout.height) / 1080
     assert above == pytest.approx(below, abs=3)
     assert min(above, below) >= least
+    # The answers follow the question, and the ticket is for later.
+    assert frame.top() > max(whole(button).bottom() for button in (on, stop))
     kiosk.ask("")
 
 

@@ -1,4 +1,5 @@
 // A button that is hard to miss: large, and the same by mouse, touch and keyboard.
+pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Controls.Basic
 import "."
@@ -25,13 +26,19 @@ Button {
     property real underSize: Theme.small
     property int underLines: 1
     readonly property real underTall: under === "" ? 0 : Math.ceil(1.37 * underLines * underSize)
+    // A sign that tells it from its neighbour at a glance; none without. It stands above its words, or before them.
+    property string sign: ""
+    property real signSize: 0
+    property bool signAbove: true
+    readonly property real signTall: sign !== "" && signAbove ? signSize + 0.5 * Theme.gap : 0
+    readonly property real signBroad: sign !== "" && !signAbove ? signSize + 0.7 * Theme.gap : 0
     // How round it is at most.
     property real corner: Infinity
     property real letters: Theme.onButtons
     // How wide its words need it, within a pixel or two. Measured apart: where what lays a text out depends on the text's own
     // size, lines get lost.
     readonly property real wish: Math.max(least, needed)
-    readonly property real needed: Math.ceil(measure.advanceWidth) + 2 + leftPadding + rightPadding
+    readonly property real needed: Math.ceil(measure.advanceWidth) + 2 + 2 * horizontalPadding
 
     width: Math.min(wish, most)
     Accessible.name: words
@@ -41,6 +48,9 @@ Button {
     property real tall: 52 * Theme.unit + 1.36 * Theme.body
     readonly property alias line: lines.height
     verticalPadding: (tall - Math.ceil(line)) / 2
+    leftPadding: horizontalPadding + (Theme.mirrored ? 0 : signBroad)
+    rightPadding: horizontalPadding + (Theme.mirrored ? signBroad : 0)
+    topPadding: verticalPadding + signTall
     bottomPadding: verticalPadding + underTall + (under === "" ? 0 : 4 * Theme.unit)
     font.pixelSize: letters
     font.bold: true
@@ -80,7 +90,18 @@ Button {
         horizontalAlignment: Text.AlignHCenter
         verticalAlignment: Text.AlignVCenter
         // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
-        wrapMode: button.width < button.needed - 2 ? Text.Wrap : Text.NoWrap
+        wrapMode: button.width < button.needed + button.signBroad - 2 ? Text.Wrap : Text.NoWrap
+    }
+    Loader {
+        readonly property real before: Math.max(button.horizontalPadding, (button.width - button.signBroad - measure.advanceWidth) / 2)
+        active: button.sign !== ""
+        x: button.signAbove ? (button.width - button.signSize) / 2 : Theme.across(before, button.signSize, button.width)
+        y: button.signAbove ? button.verticalPadding : (button.height - button.signSize) / 2
+        sourceComponent: Sign {
+            width: button.signSize
+            sign: button.sign
+            reach: 37
+        }
     }
     Text {
         objectName: "note"

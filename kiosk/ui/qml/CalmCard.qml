@@ -14,8 +14,9 @@ FocusScope {
     property bool lineFirst: false
     // What stands below that line; empty for none.
     property string more: ""
-    // What is to be taken along, and what to do with it; empty for none.
+    // What is to be taken along, what it is for, and what to do with it; empty for none.
     property string code: ""
+    property string codeLine: ""
     property string codeTitle: ""
     // The lines of a drawing above the title, on a square of 24; empty for none.
     property string sign: ""
@@ -131,7 +132,7 @@ FocusScope {
             id: content
             anchors.centerIn: parent
             width: parent.width - 4 * Theme.gap
-            spacing: (calm.roomy || calm.large && buttons.alone ? 2 : 1.5) * Theme.gap
+            spacing: (calm.roomy || calm.large && calm.beside > 0 ? (calm.code !== "" ? 2.4 : 2) : calm.large && buttons.alone ? 2 : 1.5) * Theme.gap
             Row {
                 anchors.horizontalCenter: parent.horizontalCenter
                 visible: calm.lies && !calm.spread
@@ -168,9 +169,7 @@ FocusScope {
                 horizontalAlignment: Text.AlignHCenter
             }
             Balanced {
-                anchors.horizontalCenter: parent.horizontalCenter
-                // Its lines do not reach as far as the buttons.
-                width: parent.width - (calm.code !== "" && calm.speaker > 0 && Theme.textSize <= 1.15 ? 4 : 0) * Theme.gap
+                width: parent.width
                 visible: text !== ""
                 text: calm.line
                 font { pixelSize: calm.lineFirst ? calm.titleSize : calm.lineSize; bold: calm.lineFirst }
@@ -201,15 +200,6 @@ FocusScope {
                     seconds: calm.seconds
                 }
             }
-            CalmCode {
-                anchors.horizontalCenter: parent.horizontalCenter
-                visible: calm.code !== ""
-                width: calm.roomy ? parent.width : Math.min(parent.width, Theme.size(760))
-                code: calm.code
-                title: calm.codeTitle
-                large: calm.large
-                roomy: calm.roomy
-            }
             CalmChoices {
                 id: buttons
                 anchors.horizontalCenter: parent.horizontalCenter
@@ -217,9 +207,19 @@ FocusScope {
                 choices: calm.choices
                 large: calm.large
                 roomy: calm.roomy
-                // As far from a frame as it needs to be seen that it belongs to the words.
-                above: calm.code !== "" && calm.large ? (calm.roomy ? 1 : 0.5) * Theme.gap : 0
                 onChosen: name => calm.chosen(name)
+            }
+            // After what is asked and its answers: it is for later.
+            CalmCode {
+                anchors.horizontalCenter: parent.horizontalCenter
+                visible: calm.code !== ""
+                width: parent.width
+                code: calm.code
+                title: calm.codeTitle
+                line: calm.codeLine
+                aside: calm.beside > 0 && calm.large
+                large: calm.large
+                roomy: calm.roomy
             }
         }
     }

@@ -6,14 +6,12 @@ import "."
 Flow {
     id: flow
 
-    // The name of each, its words, and whether it is quiet.
+    // The name of each, its words, its sign if it has one, and whether it is quiet.
     required property var choices
     required property real most
     // Whether there is room for a distance above a button alone, and whether words can be larger.
     required property bool large
     required property bool roomy
-    // What is free above several.
-    property real above: 0
     signal chosen(string name)
 
     // All there is to do, perhaps in a hurry, is wide: as wide as an upright page, as the way on is there.
@@ -39,7 +37,7 @@ Flow {
 
     visible: choices.length > 0
     layoutDirection: pair && !Theme.mirrored ? Qt.RightToLeft : Qt.LeftToRight
-    topPadding: alone && large ? Theme.gap : above
+    topPadding: alone && large ? Theme.gap : 0
     width: Math.min(most, Math.ceil(needed))
     spacing: (buttons.count === 2 ? 2 : 1) * Theme.gap
     Repeater {
@@ -52,10 +50,16 @@ Flow {
             objectName: modelData.name
             most: flow.most
             width: flow.alone && !flow.roomy ? Math.min(most, Math.max(wish, 720 * Theme.unit)) : flow.alone || flow.two && !flow.pair ? most : flow.pair ? Math.floor(flow.half) : Math.min(wish, most)
-            font.pixelSize: Theme.size(flow.alone ? (flow.roomy ? 56 : 50) : flow.roomy ? 48 : flow.large && Theme.textSize <= 1.15 ? 44 : 36)
+            font.pixelSize: Theme.size(flow.alone ? (flow.roomy ? 56 : 50) : flow.roomy ? 48 : flow.large && Theme.textSize <= 1.15 ? 48 : 36)
             verticalPadding: (flow.alone ? (flow.roomy ? 42 : 36) : flow.roomy ? 36 : 30) * Theme.unit
             words: modelData.words
             quiet: modelData.quiet ?? false
+            sign: modelData.sign ?? ""
+            // Above the words where two stand beside each other, so that both are told apart before they are read.
+            signAbove: flow.pair
+            signSize: (!flow.pair ? 60 : flow.roomy ? 152 : flow.large ? 128 : 88) * Theme.unit
+            horizontalPadding: (sign === "" ? 56 : 28) * Theme.unit
+            corner: sign !== "" && flow.pair ? 2 * Theme.radius : Infinity
             onClicked: flow.chosen(modelData.name)
         }
     }

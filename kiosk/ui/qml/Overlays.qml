@@ -52,15 +52,17 @@ Item {
             focus: true
             windowLayout: overlays.windowLayout
             // Above a face it reaches up to the distance that a page has from the edge, where it has so much to say.
-            least: roomy ? (code !== "" ? speaker - 5 * Theme.gap : 900 * Theme.unit) : speaker > 0 && overlays.windowLayout.board !== null ? 900 * Theme.unit : 0
+            least: roomy ? (code !== "" ? speaker - 5 * Theme.gap : 900 * Theme.unit) : beside > 0 && Theme.textSize <= 1.15 && code !== "" ? 896 * Theme.unit : speaker > 0 && overlays.windowLayout.board !== null ? 900 * Theme.unit : 0
             title: overlays.words["stop-title"]
-            titleSize: roomy ? Theme.size(96) : large && Theme.textSize <= 1.15 ? Theme.size(80) : Theme.figure
-            line: overlays.kiosk.stopLine
+            titleSize: roomy ? Theme.size(96) : beside > 0 && Theme.textSize <= 1.15 ? largestInOneLine(title, [104, 100, 96, 92, 88, 84, 80]) : Theme.figure
+            // What is to be known of a code stands with it.
+            line: code === "" ? overlays.kiosk.stopLine : ""
+            codeLine: overlays.kiosk.stopLine
             lineSize: roomy ? Theme.size(50) : large ? Theme.size(44) : Theme.body
             code: overlays.kiosk.stopCode
             codeTitle: overlays.words["stop-code"]
             // Neither is the quieter one: to stop is as easy to see as to go on.
-            choices: [{ name: "stop-no", words: overlays.words["stop-no"] }, { name: "stop-yes", words: overlays.words["stop-yes"] }]
+            choices: [{ name: "stop-no", words: overlays.words["stop-no"], sign: "play" }, { name: "stop-yes", words: overlays.words["stop-yes"], sign: "leave" }]
             onChosen: name => name === "stop-yes" ? overlays.kiosk.stop() : overlays.kiosk.ask("")
             Keys.onEscapePressed: overlays.kiosk.ask("")
         }
