@@ -345,8 +345,6 @@ WORDS = (
     "console-mute",
     "console-heard",
     "console-stay-paused",
-    "console-switch-on",
-    "console-switch-off",
     "console-break",
     "console-break-end",
     "console-abort",

@@ -49,8 +49,6 @@ QtObject {
     readonly property color sea: highContrast ? "#0A3A44" : accent
     readonly property color lightSea: highContrast ? "#000000" : Qt.colorEqual(accent, "#1F5F6B") ? "#2E7784" : Qt.darker(accent, 1.15)
     readonly property color amber: highContrast ? "#FFB000" : "#F2A33A"
-    // The ground of what warns, below dark words.
-    readonly property color cautious: highContrast ? "#FFFFFF" : Qt.tint(white, Qt.alpha(amber, 0.2))
     readonly property color deepAmber: highContrast ? "#5A2D00" : "#8A4B00"
     // A pair that is found: not the colour of a hint, nor that of a closed card.
     readonly property color leaf: highContrast ? "#00592E" : "#3E8E5A"

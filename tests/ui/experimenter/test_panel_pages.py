@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 from PySide6.QtCore import QCoreApplication, QPointF, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QGuiApplication
+from PySide6.QtQml import QQmlProperty
 from PySide6.QtQuick import QQuickItem
 from PySide6.QtTest import QTest
 
@@ -27,7 +28,7 @@ from kiosk.ui.simulated_visitor import find_item, lay_out
 from kiosk.ui.window import Window
 from tests.samples import CATALOGUES
 from tests.ui.headless import free, open_window
-from tests.ui.looking import items, lies_in, of_kind, texts
+from tests.ui.looking import background, items, lies_in, of_kind, place, texts
 
 WIDE, UPRIGHT = (1920, 1080), (1080, 1920)
 ROUNDED = 3
@@ -491,6 +492,24 @@ def test_a_command_to_type_elsewhere_is_as_dark_as_what_to_do_and_in_letters_of_
     assert command.property("color") == remedy.property("color")
     letters = QFontMetricsF(command.property("font"))
     assert letters.horizontalAdvance("i") == letters.horizontalAdvance("m")
+    # What cannot be pressed has no ground of its own.
+    picture = window.shown.grabWindow()
+    assert background(picture, place(command.parentItem())) == background(picture, place(remedy))
+
+
+@pytest.mark.parametrize("size", [WIDE, UPRIGHT])
+def test_all_that_can_be_pressed_has_one_outline_and_the_switch_says_its_name_alone(
+    window: Window, size: tuple[int, int]
+) -> None:
+    show(window, "en", size, health=with_the_copy("en"), choices=busy_day("en")["choices"])
+    shown = {item.objectName(): item for item in items(window.shown.contentItem()) if item.isVisible()}
+    outlines = [
+        (ground.property("radius"), QQmlProperty.read(ground, "border.color").name())
+        for ground in (shown[name].property("background") for name in ("action-backup", "action-again", "action-mute"))
+    ]
+    assert len(set(outlines)) == 1
+    switch = shown["action-pause"]
+    assert [words_of(text) for text in texts(switch)] == [CATALOGUES["en"].text("console-stay-paused")]
 
 
 @pytest.mark.parametrize("size", LAYOUTS)

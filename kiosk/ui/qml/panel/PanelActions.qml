@@ -38,7 +38,7 @@ Column {
             return size
         const most = wide ? size : Math.max(size, Math.min(1.2 * size, 36 * Theme.unit))
         const room = across - 2 * edge
-        const needs = [...named.map(text => wordWidths.plain(text, 1)), wordWidths.bold(words["console-abort"] ?? "", 1)].map(each => each + 2.1)
+        const needs = [...named, words["console-abort"] ?? ""].map(text => wordWidths.bold(text, 1) + 2.1)
         return Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(most, ...needs.map(each => room / (each + 0.2)))))
     }
     function startOf(size: real): real {
@@ -145,14 +145,15 @@ Column {
         width: actions.across
         height: actions.tall + actions.beyond(actions.lettering)
         radius: Theme.radius
-        color: Theme.touchable
-        border { color: Theme.highContrast ? Theme.edge : "transparent"; width: 2 * Theme.unit }
+        // A card and not a button: what is pressed stands in it.
+        color: Theme.white
+        border { color: Theme.edge; width: 2 * Theme.unit }
         Drawing {
             x: actions.edge + (pause.sign - width) / 2
             y: asked.y + (asked.height - height) / 2
             scale: pause.sign / 24
             path: "M12 3.5 A8.5 8.5 0 1 1 11.99 3.5 M12 7.5 V12.3 L15.2 14.2"
-            ink: Theme.sea
+            ink: Theme.faintInk
         }
         Balanced {
             id: asked
@@ -163,7 +164,7 @@ Column {
             lineHeight: actions.wide ? 1 : 0.9
             text: breaks.title
             font.pixelSize: actions.lettering
-            color: Theme.sea
+            color: Theme.ink
         }
         PanelChoice {
             id: breaks

@@ -14,7 +14,7 @@ Rectangle {
     // The actions that answer one of them: their buttons stand here, and not among the others.
     readonly property var answered: matters.map(matter => matter.action ?? "").filter(action => action !== "")
     readonly property var rest: matters.filter(matter => !matter.action)
-    // The bar at its edge has the colour that warns; the ground is pale.
+    // The bar at its edge and the marks have the colours that warn. Nothing else has: the state is what is seen first.
     readonly property real bar: 14 * Theme.unit
     readonly property real inset: Math.round(1.4 * Theme.gap)
     readonly property real across: width - 2 * inset
@@ -41,11 +41,12 @@ Rectangle {
         return Boolean(matter.action || matter.command)
     }
     function typedOf(size: real): real {
-        return Math.max(27 * Theme.unit * Math.max(1, Theme.textSize), signed ? 0.84 * size : 0)
+        return Math.max((signed ? 27 : 28) * Theme.unit * Math.max(1, Theme.textSize), signed ? 0.9 * size : 0)
     }
     function answeringOf(size: real): real {
-        const wide = matter => matter.action ? wordWidths.bold(matter.button, size) + 2.05 * size : matter.command ? typeWidths.advanceWidth(matter.command) * 0.01 * typedOf(size) + (signed ? 1.5 * size : 0) : -1
-        return Math.ceil(Math.max(...matters.map(wide), 0) * 1.01 + (Theme.upright ? 32 : 44) * Theme.unit)
+        const wide = matter => matter.action ? wordWidths.bold(matter.button, size) + 2.05 * size + (Theme.upright ? 32 : 44) * Theme.unit
+            : matter.command ? typeWidths.advanceWidth(matter.command) * 0.01 * typedOf(size) + (signed ? 1.5 * size : 0) + 6 * Theme.unit : 0
+        return Math.ceil(Math.max(...matters.map(wide)) * 1.01)
     }
     // What the words of a matter have beside its answer.
     function beside(matter: var, size: real): real {
@@ -99,7 +100,7 @@ Rectangle {
             visible: !row.first
             width: parent.width
             height: 2 * Theme.unit
-            color: Theme.highContrast ? Theme.edge : Qt.alpha(Theme.amber, 0.55)
+            color: Theme.edge
         }
         PanelMark {
             y: words.y
@@ -148,25 +149,22 @@ Rectangle {
                 font { pixelSize: notice.size; bold: true }
                 onClicked: notice.panel.wish(row.action, "")
             }
-            // What is to be typed in a terminal.
-            Rectangle {
+            // What is to be typed in a terminal: plain letters, for nothing here can be pressed.
+            Item {
                 visible: row.answered && row.action === ""
                 anchors.fill: parent
-                radius: 6 * Theme.unit
-                color: Theme.highContrast ? Theme.white : Qt.tint(Theme.cautious, Qt.alpha(Theme.amber, 0.22))
-                border { color: Theme.edge; width: Theme.highContrast ? 2 * Theme.unit : 0 }
                 Drawing {
                     visible: notice.signed
-                    x: 16 * Theme.unit + (1.2 * notice.size - width) / 2
+                    x: (1.2 * notice.size - width) / 2
                     y: (parent.height - height) / 2
                     scale: 1.15 * notice.size / 24
                     path: "M5 6.5 L10.5 12 L5 17.5 M13 18 H20"
-                    ink: Theme.ink
+                    ink: Theme.faintInk
                 }
                 PlainText {
-                    x: 16 * Theme.unit + (notice.signed ? 1.5 * notice.size : 0)
+                    x: (notice.signed ? 1.5 * notice.size : 0)
                     y: (parent.height - height) / 2
-                    width: parent.width - x - 10 * Theme.unit
+                    width: parent.width - x
                     text: row.matter?.command ?? ""
                     font { family: "monospace"; pixelSize: notice.typed }
                     color: Theme.ink
@@ -182,15 +180,14 @@ Rectangle {
     color: Theme.amber
 
     Rectangle {
-        readonly property real line: 2 * Theme.unit
         x: notice.bar
-        y: line
-        width: parent.width - notice.bar - line
-        height: parent.height - 2 * line
-        radius: notice.radius - line
+        width: parent.width - notice.bar
+        height: parent.height
+        radius: notice.radius
         topLeftRadius: 0
         bottomLeftRadius: 0
-        color: Theme.cautious
+        color: Theme.white
+        border { color: Theme.edge; width: 2 * Theme.unit }
     }
     Column {
         id: rows

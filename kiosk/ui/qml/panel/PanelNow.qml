@@ -40,7 +40,7 @@ Rectangle {
     readonly property real tall: Math.round((beside ? 92 : 108) * Theme.unit)
     readonly property real low: Math.round((beside ? 64 : 76) * Theme.unit)
     readonly property real lettering: lettered(size)
-    // The words of the switch are as large as leaves what stands beside its knob the room.
+    // The words of the switch have one line beside its knob, where that does not make them small.
     readonly property real switched: switchedOf(size)
     readonly property alias way: back
 
@@ -50,9 +50,8 @@ Rectangle {
         return Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(most, ...pressed.map(text => (across - 50 * Theme.unit) / (wordWidths.bold(text, 1) + 2.3)))))
     }
     function switchedOf(size: real): real {
-        const state = Math.max(...["console-switch-on", "console-switch-off"].map(name => wordWidths.plain(words[name] ?? "", 1)))
         const most = (tabled && !beside ? 1.15 : 1) * size
-        return Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(most, (across - 126 * Theme.unit) / (1.02 * wordWidths.plain(words["console-stay-paused"] ?? "", 1) + state))))
+        return Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(most, (across - 128 * Theme.unit) / Math.max(1, 1.02 * wordWidths.plain(words["console-stay-paused"] ?? "", 1)))))
     }
     // How high the words are, and what is pressed.
     function saidDeep(size: real): real {
@@ -63,7 +62,7 @@ Rectangle {
     function pressedDeep(size: real): real {
         const letters = lettered(size)
         const button = (text, least) => Math.max(least, 1.4 * letters * wordWidths.lines(text, letters, across - 2.05 * letters - 36 * Theme.unit) + 18 * Theme.unit)
-        const knob = underWay ? Math.max(low, 1.3 * switchedOf(size) * wordWidths.plainLines(words["console-stay-paused"] ?? "", switchedOf(size), across - 88 * Theme.unit) + 18 * Theme.unit) + space : 0
+        const knob = underWay ? Math.max(low, 1.3 * switchedOf(size) * wordWidths.plainLines(words["console-stay-paused"] ?? "", switchedOf(size), across - 120 * Theme.unit) + 18 * Theme.unit) + space : 0
         return pressed.reduce((sum, text, at) => sum + button(text, at === 0 ? tall : low) + space, -space) + knob
     }
     function behinds(size: real): bool {
@@ -184,8 +183,6 @@ Rectangle {
             horizontalPadding: 6 * Theme.unit
             font.pixelSize: now.switched
             words: now.words["console-stay-paused"]
-            whenOn: now.words["console-switch-on"]
-            whenOff: now.words["console-switch-off"]
             on: now.choices.staysPaused
             onClicked: now.panel.wish("pause", "")
         }

@@ -1,4 +1,4 @@
-// One action of a list, on the pale ground of all that can be touched.
+// One action of a list, with the outline that all buttons of the panel have.
 pragma ComponentBehavior: Bound
 import QtQuick
 import ".."
@@ -6,16 +6,7 @@ import ".."
 PanelButton {
     id: row
 
-    ground: grave ? Theme.white : Theme.touchable
-    background: Rectangle {
-        radius: Theme.radius
-        color: row.down ? Theme.sand : row.hovered ? Theme.white : row.ground
-        border { color: row.grave ? Theme.deepAmber : Theme.highContrast ? Theme.edge : row.hovered ? Theme.sea : "transparent"; width: 2 * Theme.unit }
-        FocusRing {
-            around: row
-            reach: 0
-            radius: Theme.radius
-            border.width: 5 * Theme.unit
-        }
-    }
+    ground: Theme.white
+    ringInPlace: true
+    font.bold: true
 }

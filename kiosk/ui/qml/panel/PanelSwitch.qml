@@ -1,4 +1,4 @@
-// Turns one thing on and off, and says which of the two it is: by its knob, by a word, and by its colour.
+// Turns one thing on and off, and shows which of the two it is: by the place of its knob, a tick on it, and its colour.
 pragma ComponentBehavior: Bound
 import QtQuick
 import ".."
@@ -7,11 +7,9 @@ PanelButton {
     id: bar
 
     required property bool on
-    // What stands beside the knob: that it is on, and that it is off.
-    required property string whenOn
-    required property string whenOff
-    readonly property real knob: 34 * Theme.unit
-    readonly property real between: 0.45 * Theme.gap
+    readonly property real knob: 42 * Theme.unit
+    readonly property real reach: 1.9 * knob + 12 * Theme.unit
+    readonly property real between: 0.6 * Theme.gap
 
     choosable: true
     chosen: on
@@ -21,7 +19,7 @@ PanelButton {
 
     contentItem: Item {
         id: parts
-        implicitWidth: wide(bar.words, bar.font) + bar.between + track.width
+        implicitWidth: wide(bar.words, bar.font) + bar.between + bar.reach
         implicitHeight: Math.max(letters.implicitHeight, track.height)
         // What is measured depends on the font, which is named for that reason alone.
         function wide(text: string, _font: font): real {
@@ -34,7 +32,7 @@ PanelButton {
         Balanced {
             id: letters
             anchors.verticalCenter: parent.verticalCenter
-            width: parts.width - bar.between - state.room - track.width
+            width: parts.width - bar.between - bar.reach
             text: bar.words
             font: bar.font
             color: bar.front
@@ -43,27 +41,11 @@ PanelButton {
             lineHeight: 0.9
             Accessible.ignored: true
         }
-        // Only where its words need no second line for it.
-        PlainText {
-            id: state
-            readonly property real spare: parts.width - parts.wide(bar.words, bar.font) - bar.between - track.width - width
-            readonly property real after: Math.min(14 * Theme.unit, spare)
-            readonly property real room: visible ? width + after : 0
-            visible: spare >= 4 * Theme.unit
-            x: parts.width - track.width - after - width
-            y: (parts.height - height) / 2
-            width: Math.ceil(Math.max(parts.wide(bar.whenOn, bar.font), parts.wide(bar.whenOff, bar.font)))
-            text: bar.on ? bar.whenOn : bar.whenOff
-            font.pixelSize: bar.font.pixelSize
-            color: bar.front
-            horizontalAlignment: Text.AlignRight
-            Accessible.ignored: true
-        }
         Rectangle {
             id: track
             x: parts.width - width
             y: (parts.height - height) / 2
-            width: 1.9 * bar.knob + 12 * Theme.unit
+            width: bar.reach
             height: bar.knob + 12 * Theme.unit
             radius: height / 2
             color: bar.on ? Theme.sea : Theme.white
@@ -76,6 +58,14 @@ PanelButton {
                 height: width
                 radius: width / 2
                 color: bar.on ? Theme.white : Theme.faintInk
+                Drawing {
+                    visible: bar.on
+                    anchors.centerIn: parent
+                    scale: 0.8 * bar.knob / 24
+                    thick: 3
+                    path: "M5 12.5 L10 17.5 L19 7"
+                    ink: Theme.sea
+                }
             }
         }
     }

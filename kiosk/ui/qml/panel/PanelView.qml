@@ -114,14 +114,15 @@ FocusScope {
             id: close
             objectName: "panel-close"
             anchors { right: parent.right; top: parent.top }
-            width: 68 * Theme.unit
+            width: 76 * Theme.unit
             words: view.words["console-close"]
             horizontalPadding: 0
             // A plain cross: the way back to what was shown stands with the state.
             contentItem: Item {
                 Drawing {
                     anchors.centerIn: parent
-                    scale: 1.6 * Theme.unit
+                    scale: 2.5 * Theme.unit
+                    thick: 1.8
                     path: "M5 5 L19 19 M19 5 L5 19"
                     ink: close.front
                 }
