@@ -43,12 +43,22 @@ PageFrame {
     }
     // About how high points and boxes are, with letters of these sizes and so many gaps.
     function tall(letters: real, inside: real, apart: real): real {
-        const size = Math.round(Theme.size(letters)), count = consent.purposes.length
-        const points = read.map(each => Math.max(badge * size, 1.48 * size * widths.plainLines(each.text, size, column - badge * size - Theme.gap)))
+        const size = Math.round(Theme.size(letters)), pointSize = Math.round(Theme.size(pointLetters(letters))), count = consent.purposes.length
+        const points = read.map(each => Math.max(badge * pointSize, 1.48 * pointSize * linesOf(each.text, pointSize)))
         const boxes = consent.purposes.map(purpose => 2 * inside * Theme.gap + Math.max(64 * Theme.unit,
             lineOf(size) * widths.plainLines(purpose.text, size, column - 136 * Theme.unit)))
         return sum(points) + (read.length - 1) * pointGap + Theme.gap + 1.37 * heads
             + sum(boxes) + count * apart * Theme.gap + (count > needed ? tagTall : 0)
+    }
+    // On how many lines a point stands.
+    function linesOf(text: string, size: int): int {
+        return widths.plainLines(text, size, column - badge * size - Theme.gap)
+    }
+    // Points have the letters of the boxes, or somewhat smaller ones where these spare them a line.
+    function pointLetters(letters: real): real {
+        const lines = less => sum(read.map(each => linesOf(each.text, Math.round(Theme.size(letters - less)))))
+        const tried = [0, 1, 2, 3, 4].map(lines), least = Math.min(...tried)
+        return letters - tried.indexOf(least)
     }
     // How high a line of a box is: letters and lines have whole pixels.
     function lineOf(size: int): int {
@@ -62,7 +72,7 @@ PageFrame {
     // A title that nearly leaves the button beside it its line does so with letters a little smaller.
     titleSize: {
         const fits = Theme.pageTitle * (column - toggle.width - 1.2 * Theme.gap) / Math.max(1, widths.bold(title, Theme.pageTitle))
-        return fits >= 0.8 * Theme.pageTitle ? Math.min(Theme.pageTitle, Math.floor(fits)) : Theme.pageTitle
+        return fits >= 0.65 * Theme.pageTitle ? Math.min(Theme.pageTitle, Math.floor(fits)) : Theme.pageTitle
     }
     label: words["consent-agree"]
     other: words["consent-decline"]
@@ -143,7 +153,7 @@ PageFrame {
                         text: modelData.text
                         sign: modelData.sign
                         badge: (view.roomy ? view.badge : 2.1) * size
-                        size: view.roomy ? Theme.size(view.used[0]) : Theme.body
+                        size: view.roomy ? Theme.size(view.pointLetters(view.used[0])) : Theme.body
                     }
                 }
             }
