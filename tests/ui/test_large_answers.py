@@ -181,22 +181,44 @@ def test_a_field_for_a_number_looks_like_a_field_and_not_like_an_answer(
 
 
 @pytest.mark.parametrize("language", ["en", "es", "ar"])
-def test_on_an_upright_page_a_number_has_a_field_like_the_tiles_of_short_answers(
+def test_on_an_upright_page_a_number_has_a_field_beside_its_question_and_answers_have_rows(
     booth: Booth, qtbot: QtBot, language: str
 ) -> None:
     (options,) = ask(booth, qtbot, UPRIGHT, AGE, GENDER, language=language)
-    field = edges(booth.item("number-age"))
-    assert [len(row) for row in rows(options)] == [2, 2]
-    # It stands below its question, as high as a tile and as wide as two.
-    tiles = edges(options[0]).united(edges(options[1]))
-    assert (field.left(), field.right()) == pytest.approx((tiles.left(), tiles.right()), abs=3)
-    assert field.height() == pytest.approx(options[0].height(), abs=1)
+    field, bar = edges(booth.item("number-age")), edges(options[0])
+    assert [len(row) for row in rows(options)] == [1] * len(options)
+    # It takes half of the page's width, at the end, and is as high as an answer.
+    ends = (field.left(), bar.left()) if language == "ar" else (field.right(), bar.right())
+    assert ends[0] == pytest.approx(ends[1], abs=3)
+    assert 0.44 * bar.width() <= field.width() <= 0.5 * bar.width()
+    assert field.height() == pytest.approx(bar.height(), abs=1)
     question = next(text for text in texts(booth.item("item-age")) if text.property("font").bold())
-    assert painted(question).bottom() < field.top()
-    # Once it has a number, plus and minus stand beside it.
+    assert not painted(question).intersects(field.toAlignedRect())
+    assert field.top() <= painted(question).center().y() <= field.bottom()
+    # Answers and the field have edges: questions have no card with one more.
+    assert [booth.item(f"card-{name}").property("color").alpha() for name in ("age", "gender")] == [0, 0]
+    assert [booth.item(f"due-{name}").opacity() for name in ("age", "gender")] == [0, 0]
+    # Once it has a number, plus and minus stand beside it, in the same width.
     booth.item("number-age").setProperty("text", "30")
     lay_out(booth.app.window)
-    less = edges(booth.item("less-age"))
-    assert not less.intersects(edges(booth.item("number-age")))
-    assert tiles.adjusted(-3, 0, 3, 0).left() <= less.left() < less.right() <= tiles.right() + 3
+    less, typed = edges(booth.item("less-age")), edges(booth.item("number-age"))
+    assert not less.intersects(typed)
+    spread = typed.united(less)
+    assert (spread.left(), spread.right()) == pytest.approx((field.left(), field.right()), abs=1)
+    # Its digits are larger than the words of answers, which are large themselves.
+    letters, words = (item.property("font").pixelSize() for item in (booth.item("number-age"), next(texts(options[0]))))
+    assert letters >= 1.3 * words
+    assert words >= 46
     booth.item("number-age").setProperty("text", "")
+
+
+def test_more_short_answers_of_an_upright_page_are_tiles_in_two_columns_below_a_field_as_wide(
+    booth: Booth, qtbot: QtBot
+) -> None:
+    (options,) = ask(booth, qtbot, UPRIGHT, AGE, choice(*ANSWERS[:8]))
+    assert [len(row) for row in rows(options)] == [2] * 4
+    assert are_even(options)
+    field, tile = edges(booth.item("number-age")), edges(options[1])
+    assert (field.left(), field.right()) == pytest.approx((tile.left(), tile.right()), abs=4)
+    assert field.height() == pytest.approx(tile.height(), abs=1)
+    assert not booth.sees("more")

@@ -48,7 +48,7 @@ Item {
     // How it is laid out where the page has room for that; else null.
     readonly property var roomy: questions.roomy
     // Whether it has no card.
-    readonly property bool bare: page.alone && !page.solo
+    readonly property bool bare: page.alone && !page.solo || questions.open
     signal entered(Item field)
 
     readonly property var answer: form.answers[item.id]
@@ -206,7 +206,7 @@ Item {
         item: box.item.id
         bare: box.bare
         missed: box.missed
-        due: box.due
+        due: box.due && !box.bare
         joinsAbove: box.rows.sheet !== null && (box.topped || !box.first)
         joinsBelow: box.joint > 0 || box.foot > 0
     }
@@ -255,7 +255,7 @@ Item {
                     visible: (box.inline || box.below) && !box.ranged && text !== ""
                     text: box.item.range ?? ""
                     horizontalAlignment: Text.AlignLeft
-                    font.pixelSize: box.page.large || box.columned || box.roomy !== null ? Theme.size(32) : Theme.small
+                    font.pixelSize: box.questions.open ? Theme.size(36) : box.page.large || box.columned || box.roomy !== null ? Theme.size(32) : Theme.small
                     wrapMode: Text.Wrap
                     color: Theme.faintInk
                 }
@@ -277,7 +277,7 @@ Item {
                 x: Theme.across(question.contentWidth + 1.25 * Theme.gap, width, asked.width)
                 y: told.y + question.y + question.baselineOffset - baselineOffset
                 text: box.item.range ?? ""
-                font.pixelSize: Theme.size(32)
+                font.pixelSize: Theme.size(box.questions.open ? 36 : 32)
                 color: Theme.faintInk
             }
             // A row whose question has a line to itself has no height for a second.
@@ -422,6 +422,7 @@ Item {
             room: content.width
             tall: box.questions.fieldHeight
             inline: box.inline
+            column: box.questions.columnWidth
             filling: box.below
             keyed: box.keyed
             item: box.item.id

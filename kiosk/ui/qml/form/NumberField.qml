@@ -22,6 +22,9 @@ Row {
     required property string hint       // what there is to do, while it is empty
     // Whether it stands beside its question, which then says what it may be.
     property bool inline: false
+    // How wide it is there with its buttons, if that is given. Its digits are as large as those of the keys then.
+    property real column: 0
+    readonly property bool large: inline && column > 0
     // Whether it takes all of the width below its question, which then says so as well.
     property bool filling: false
     // Whether the keys on the screen type into it.
@@ -119,16 +122,17 @@ Row {
         minus: number.minus
         // As wide as the longest number; digits of another script may be wider still.
         settled: number.filling ? number.room - 2 * (number.stepSize + number.spacing)
+            : number.large ? number.column - 2 * (number.stepSize + number.spacing)
             : Math.max(Math.max(260, 228 * Theme.textSize) * Theme.unit, Math.max(widest.advanceWidth, contentWidth) + leftPadding + rightPadding + 8 * Theme.unit)
         width: settled + (number.bare ? 2 * (number.stepSize + number.spacing) : 0)
         height: number.tall
         topPadding: 2 * Theme.unit
         bottomPadding: 2 * Theme.unit
-        font { pixelSize: Theme.size(50); bold: true }
+        font { pixelSize: number.large ? Math.min(Theme.size(72), 0.5 * number.tall) : Theme.size(50); bold: true }
         verticalAlignment: TextInput.AlignVCenter
         leftPadding: (number.inline || number.filling ? 36 : 24) * Theme.unit
         rightPadding: leftPadding
-        horizontalAlignment: number.inline || number.filling ? TextInput.AlignLeft : TextInput.AlignHCenter
+        horizontalAlignment: number.large && (length > 0 || activeFocus) ? TextInput.AlignHCenter : number.inline || number.filling ? TextInput.AlignLeft : TextInput.AlignHCenter
         longest: number.widest.length
         validator: RegularExpressionValidator { regularExpression: new RegExp(number.pattern) }
         onTextChanged: number.typed(text)

@@ -40,8 +40,11 @@ QtObject {
     readonly property real afterRing: roomy !== null ? larger.afterRing : (page.largeText && !page.large ? 10 : 14) * Theme.unit
     readonly property real afterWords: roomy !== null ? larger.afterWords : (page.easy || page.alone ? 20 : 10) * Theme.unit
     readonly property real around: ring + beforeRing + afterRing + afterWords + 2 * Theme.unit
+    // Whether questions have no cards, and how wide the field beside one is then with its buttons.
+    readonly property bool open: roomy !== null && larger.open
+    readonly property real columnWidth: open ? larger.columnWidth : 0
     // How much width options have.
-    readonly property real optionsWidth: page.alone ? page.column : page.inner
+    readonly property real optionsWidth: roomy !== null ? larger.inner : page.alone ? page.column : page.inner
     // In how many columns options stand at most. Those of several questions stand in the same two, where there is height for that.
     readonly property int most: !page.tight && page.items.length <= 3 && page.items.filter(item => item.options !== undefined).length > 1 ? 2 : 6
     // Whether the page lacks the height for as many rows as that takes.

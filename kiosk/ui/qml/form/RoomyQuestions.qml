@@ -9,36 +9,42 @@ QtObject {
     required property WordWidths widths
 
     readonly property bool sole: page.alone
+    // Whether questions stand on the page itself: options and fields have edges of their own, and a card would be one more.
+    readonly property bool open: sole || page.upright
+    readonly property real inner: open ? page.column : page.inner
     // How large the questions are: as large as leaves each in as few lines as small letters do, and clearly smaller than the
     // title. One that is alone may have two lines on an upright page.
-    readonly property real asking: (sole ? [54, 52, 50, 48, 46, 44] : page.upright ? [48, 46, 44, 42, 40, 38] : [44, 42, 40, 38]).map(Theme.size)
-        .find(size => page.items.every(item => widths.lines(item.text, size, page.inner) <= fewest(item))) ?? Theme.size(38)
+    readonly property real asking: (sole ? [54, 52, 50, 48, 46, 44] : page.upright ? [54, 52, 50, 48, 46, 44, 42, 40, 38] : [44, 42, 40, 38]).map(Theme.size)
+        .find(size => page.items.every(item => linesAt(item, size) <= fewest(item))) ?? Theme.size(38)
     function fewest(item: var): int {
-        return Math.max(sole && page.upright ? 2 : 1, widths.lines(item.text, Theme.size(38), page.inner))
+        return Math.max(sole && page.upright ? 2 : 1, linesAt(item, Theme.size(38)))
     }
-    // How far below the line of pages one that is alone begins, which has no card.
-    readonly property real begin: !sole ? 0 : (page.upright ? 28 : 14) * Theme.unit
+    function linesAt(item: var, size: real): int {
+        return widths.lines(item.text, size, beside(item) ? inner - fieldWidth : inner)
+    }
+    // How far below the line of pages they begin where they have no card.
+    readonly property real begin: !open ? 0 : (page.upright ? 28 : 14) * Theme.unit
     function sunk(tall: real): real {
-        return !sole ? 0 : Math.max(begin, Math.min(72 * Theme.unit, (page.free - tall) / 3))
+        return !open ? 0 : Math.max(begin, Math.min((sole ? 72 : 96) * Theme.unit, (page.free - tall) / 3))
     }
     // How large options are, how high and how far apart; how far the content of a card is from its edges and a question from
     // its options; and in how many columns options stand. Null where all of that has no room.
     readonly property var found: page.brief ? search() : null
 
-    // Few words of two questions on an upright page are large tiles in two columns. Otherwise options stand below each other where a
-    // page has the height for that, or else in as many columns as leave no hole in the last row, or else in columns that may
+    // Options of two questions on an upright page stand below each other where they can be high, and else, if their words are
+    // short, as large tiles in two columns. Otherwise options stand below each other where a page has the height for that, or else in as many columns as leave no hole in the last row, or else in columns that may
     // leave one.
     readonly property bool tiled: page.upright && !sole
-    readonly property var ways: [...(tiled ? ["tiles"] : []), ...(sole || page.upright ? ["list"] : []), "even", "two", "three"]
-    readonly property var steps: [...(tiled ? [[140, 26, 48, 32], [126, 26, 44, 28]] : []), [112, 28, 40, 26], [104, 24, 36, 24], [100, 22, 32, 22], [96, 20, 30, 20], [92, 20, 26, 18], [88, 18, 24, 16], [84, 16, 20, 14], [78, 14, 18, 12], [72, 14, 16, 10]]
+    readonly property var ways: [...(tiled ? ["high", "tiles"] : []), ...(sole || page.upright ? ["list"] : []), "even", "two", "three"]
+    readonly property var steps: [...(tiled ? [[148, 22, 48, 38], [136, 22, 44, 34], [126, 22, 40, 32], [116, 22, 40, 30]] : []), [112, 28, 40, 26], [104, 24, 36, 24], [100, 22, 32, 22], [96, 20, 30, 20], [92, 20, 26, 18], [88, 18, 24, 16], [84, 16, 20, 14], [78, 14, 18, 12], [72, 14, 16, 10]]
     function search(): var {
-        for (const sizes of [page.upright ? [44, 42, 40, 38, 36] : [40, 38, 36], [34, 32, 30]])
+        for (const sizes of [tiled ? [50, 48, 46, 44, 42, 40, 38, 36] : page.upright ? [44, 42, 40, 38, 36] : [40, 38, 36], [34, 32, 30]])
             for (const way of ways)
                 for (const [height, gutter, margin, spacing] of steps)
                     for (const letters of sizes) {
                         const tried = {way, size: Theme.size(letters), height: height * Theme.unit, gutter: gutter * Theme.unit,
                             margin: margin * Theme.unit, spacing: (spacing + (sole ? 8 : 0)) * Theme.unit}
-                        const spare = height < 84 && way === "list" || way === "tiles" && !tiles(tried) ? -1 : room - taken(tried)
+                        const spare = height < 84 && way === "list" || (height < 104 || height > 136) && way === "high" || way === "tiles" && !tiles(tried) ? -1 : room - taken(tried)
                         if (spare >= 0)
                             return widened(tried, spare)
                     }
@@ -50,52 +56,66 @@ QtObject {
     // The same with what the page has left: options become a little higher, and the margins of cards wider.
     function widened(layout: var, spare: real): var {
         const cards = page.seen().length
-        const rows = page.seen().reduce((sum, item) => sum + (item.kind !== "integer" ? rowsOf(item, layout) : inline(item) ? 0 : 1), 0)
-        const higher = Math.floor(Math.min((sole && rows < 4 ? 36 : layout.way === "tiles" ? 56 : page.upright ? 26 : 14) * Theme.unit, (layout.way === "tiles" ? 0.6 : 0.55) * spare / Math.max(1, rows)))
+        const rows = page.seen().reduce((sum, item) => sum + (item.kind !== "integer" ? rowsOf(item, layout) : inline(item) && !open ? 0 : 1), 0)
+        const higher = Math.floor(Math.min((sole && rows < 4 ? 36 : layout.way === "tiles" ? 36 : layout.way === "high" ? 10 : page.upright ? 26 : 14) * Theme.unit, (layout.way === "tiles" ? 0.4 : 0.55) * spare / Math.max(1, rows)))
         const left = spare - rows * higher
         if (sole) {
             // Columns keep their width, by which they were chosen.
             const further = layout.way !== "list" ? 0 : Math.floor(Math.min((page.upright ? 10 : 4) * Theme.unit, 0.6 * left / Math.max(1, rows)))
             return Object.assign(layout, {height: layout.height + higher, gutter: layout.gutter + further})
         }
-        const wider = Math.floor(Math.min((layout.way === "tiles" ? 24 : page.upright ? 32 : 16) * Theme.unit, left / Math.max(1, 4 * cards)))
+        // Without cards, what is left parts the questions.
+        if (open)
+            return Object.assign(layout, {height: layout.height + higher, apart: apart(layout) + Math.floor(Math.min(112 * Theme.unit, 0.4 * left))})
+        const wider = Math.floor(Math.min(16 * Theme.unit, left / Math.max(1, 4 * cards)))
         return Object.assign(layout, {height: layout.height + higher, margin: layout.margin + wider, spacing: layout.spacing + Math.floor(wider / 2)})
     }
     // How high the page is then. Words that something is missing are part of it.
     function taken(layout: var): real {
         const seen = page.seen()
         return seen.reduce((sum, item) => {
-            const said = widths.lines(item.text, asking, page.inner) * widths.leading * asking
+            const said = linesAt(item, asking) * widths.leading * asking
             const missed = page.form.missing.includes(item.id) ? widths.leading * Theme.small + layout.spacing : 0
             const answers = item.kind === "integer" ? layout.height : rowsOf(item, layout) * (highest(item, layout) + layout.gutter) - layout.gutter
-            const asked = said + missed + (item.kind !== "integer" || rangeFits(item) ? 0 : widths.leading * Theme.size(32))
+            const asked = said + missed + (item.kind !== "integer" || rangeFits(item) ? 0 : widths.leading * Theme.size(open ? 36 : 32))
             const inside = inline(item) ? Math.max(answers, asked) : asked + layout.spacing + answers
-            return sum + inside + (sole ? 0 : 2 * layout.margin)
+            return sum + inside + (open ? 0 : 2 * layout.margin)
         }, (seen.length - 1) * apart(layout))
     }
-    // How far cards are from each other, at least.
+    // How far questions are from each other, at least.
     function apart(layout: var): real {
-        return layout.gutter + 6 * Theme.unit
+        return layout.apart ?? (open && !sole ? 64 * Theme.unit : layout.gutter + 6 * Theme.unit)
     }
-    // Whether a number stands beside its question, or below it in a field as wide as the card, as on an upright page. And
-    // whether what it may be stands in the question's line.
-    readonly property real fieldWidth: 500 * Theme.unit
+    // How much width the field of a number takes beside its question, with what is between them. On an upright page it is as
+    // wide as a tile, and in the same column.
+    readonly property real columnWidth: Math.floor((inner - between) / 2)
+    readonly property real between: 22 * Theme.unit
+    readonly property real fieldWidth: page.upright ? columnWidth + between : 500 * Theme.unit
+    // Whether a number stands beside its question, or below it in a field as wide as the page, as a long one does on an
+    // upright page. And whether what it may be stands in the question's line.
+    function beside(item: var): bool {
+        return page.upright && item.kind === "integer" && item.widest.length <= 3
+            && widths.lines(item.text, Theme.size(38), inner - fieldWidth) <= 2
+    }
     function below(item: var): bool {
-        return page.upright && item.kind === "integer"
+        return page.upright && item.kind === "integer" && !beside(item)
     }
     function inline(item: var): bool {
-        return item.kind === "integer" && !page.upright && widths.bold(item.text, asking) + fieldWidth + Theme.gap <= page.inner
+        return beside(item) || item.kind === "integer" && !page.upright && widths.bold(item.text, asking) + fieldWidth + Theme.gap <= inner
     }
     function rangeFits(item: var): bool {
-        return widths.bold(item.text, asking) + widths.slack * widths.plain(item.range, Theme.size(32)) + 2.25 * Theme.gap <= page.inner - (below(item) ? 0 : fieldWidth)
+        return widths.bold(item.text, asking) + widths.slack * widths.plain(item.range, Theme.size(open ? 36 : 32)) + 2.25 * Theme.gap <= inner - (below(item) ? 0 : fieldWidth)
     }
 
-    // How large the ring before an option's words is, and all that is beside the words.
-    readonly property real ring: (tiled ? 44 : 46) * Theme.unit
-    readonly property real beforeRing: (tiled ? 22 : 28) * Theme.unit
-    readonly property real afterRing: (tiled ? 16 : 20) * Theme.unit
-    readonly property real afterWords: (tiled ? 18 : 24) * Theme.unit
-    readonly property real around: ring + beforeRing + afterRing + afterWords + 2 * Theme.unit
+    // How large the ring before an option's words is, and all that is beside the words. Tiles have less width for that.
+    readonly property bool tight: found !== null && found.way === "tiles"
+    readonly property real ring: (tight ? 42 : 46) * Theme.unit
+    readonly property real beforeRing: (tight ? 20 : 28) * Theme.unit
+    readonly property real afterRing: (tight ? 14 : 20) * Theme.unit
+    readonly property real afterWords: (tight ? 12 : 24) * Theme.unit
+    function around(layout: var): real {
+        return (layout.way === "tiles" ? 90 : 120) * Theme.unit
+    }
 
     function columnsOf(item: var, layout: var): int {
         const all = item.options.length
@@ -103,6 +123,7 @@ QtObject {
         switch (layout.way) {
         case "tiles":
             return 2
+        case "high":
         case "list":
             return 1
         case "even":
@@ -123,11 +144,11 @@ QtObject {
     }
     // A little less than there is: a row that is wider by the last digit of a sum would lose its last option.
     function tileWidth(columns: int, layout: var): real {
-        return Math.floor((page.inner - (columns - 1) * layout.gutter) / columns - 0.01)
+        return Math.floor((inner - (columns - 1) * layout.gutter) / columns - 0.01)
     }
     // How many lines an option has there; many if a word of it has no room beside others.
     function linesOf(option: var, columns: int, layout: var): int {
-        const wide = tileWidth(columns, layout) - around
+        const wide = tileWidth(columns, layout) - around(layout)
         return widths.slack * widths.plain(option.text, layout.size) <= wide ? 1
             : columns > 1 && option.text.split(" ").some(word => widths.plain(word, layout.size) > 0.98 * wide) ? 9
             : widths.plainLines(option.text, layout.size, wide)

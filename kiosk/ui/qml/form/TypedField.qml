@@ -120,7 +120,7 @@ TextField {
         textFormat: Text.PlainText
         text: field.hint
         horizontalAlignment: field.digits ? field.horizontalAlignment : undefined
-        font.pixelSize: field.digits ? Math.min(Theme.size(Theme.upright ? 40 : 38), 0.47 * field.height) : Theme.body
+        font.pixelSize: field.digits ? Math.min(Theme.size(Theme.upright ? 46 : 38), 0.47 * field.height) : Theme.body
         fontSizeMode: Text.HorizontalFit
         minimumPixelSize: Theme.size(24)
         color: Theme.faintInk
