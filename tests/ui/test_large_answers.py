@@ -95,6 +95,11 @@ def test_the_shipped_questions_about_the_visitor_have_large_answers_without_a_ho
         assert len({len(row) for row in rows(options)}) == 1
         assert min(option.height() for option in options) >= (96 if size == WIDE else 112)
         assert min(text.property("font").pixelSize() for option in options for text in texts(option)) >= 38
+        # Where each has a row, they are nearly as large as the question, and never larger.
+        question = next(text for text in texts(booth.item(f"item-{asked[-1].id}")) if text.property("font").bold())
+        said, letters = (text.property("font").pixelSize() for text in (question, next(texts(options[0]))))
+        assert letters <= said
+        assert len(rows(options)) < len(options) or letters >= (44 if language == "de" else 46)
         assert max(text.property("lineCount") for option in options for text in texts(option)) == 1
         # They take the page, and leave the way on some air.
         free = edges(booth.item("continue")).top() - max(edges(option).bottom() for option in options)

@@ -13,11 +13,11 @@ QtObject {
     readonly property bool open: sole || page.upright
     readonly property real inner: open ? page.column : page.inner
     // How large the questions are: as large as leaves each in as few lines as small letters do, and clearly smaller than the
-    // title. One that is alone may have two lines on an upright page.
+    // title. One that is alone may have two lines on an upright page, and so may one beside the field of its number.
     readonly property real asking: (sole ? [54, 52, 50, 48, 46, 44] : page.upright ? [54, 52, 50, 48, 46, 44, 42, 40, 38] : [44, 42, 40, 38]).map(Theme.size)
         .find(size => page.items.every(item => linesAt(item, size) <= fewest(item))) ?? Theme.size(38)
     function fewest(item: var): int {
-        return Math.max(sole && page.upright ? 2 : 1, linesAt(item, Theme.size(38)))
+        return Math.max(sole && page.upright || beside(item) ? 2 : 1, linesAt(item, Theme.size(38)))
     }
     function linesAt(item: var, size: real): int {
         return widths.lines(item.text, size, beside(item) ? inner - fieldWidth : inner)
@@ -32,13 +32,15 @@ QtObject {
     readonly property var found: page.brief ? search() : null
 
     // Options of two questions on an upright page stand below each other where they can be high, and else, if their words are
-    // short, as large tiles in two columns. Otherwise options stand below each other where a page has the height for that, or else in as many columns as leave no hole in the last row, or else in columns that may
-    // leave one.
+    // short, as large tiles in two columns. Otherwise options stand below each other where a page has the height for that, or
+    // else in as many columns as leave no hole in the last row, or else in columns that may leave one.
     readonly property bool tiled: page.upright && !sole
     readonly property var ways: [...(tiled ? ["high", "tiles"] : []), ...(sole || page.upright ? ["list"] : []), "even", "two", "three"]
     readonly property var steps: [...(tiled ? [[148, 22, 48, 38], [136, 22, 44, 34], [126, 22, 40, 32], [116, 22, 40, 30]] : []), [112, 28, 40, 26], [104, 24, 36, 24], [100, 22, 32, 22], [96, 20, 30, 20], [92, 20, 26, 18], [88, 18, 24, 16], [84, 16, 20, 14], [78, 14, 18, 12], [72, 14, 16, 10]]
     function search(): var {
-        for (const sizes of [tiled ? [50, 48, 46, 44, 42, 40, 38, 36] : page.upright ? [44, 42, 40, 38, 36] : [40, 38, 36], [34, 32, 30]])
+        // Answers are no larger than their question.
+        const large = (page.upright ? [50, 48, 46, 44, 42, 40, 38, 36] : sole ? [48, 46, 44, 42, 40, 38, 36] : [40, 38, 36]).filter(size => Theme.size(size) <= asking)
+        for (const sizes of [large, [34, 32, 30]])
             for (const way of ways)
                 for (const [height, gutter, margin, spacing] of steps)
                     for (const letters of sizes) {
