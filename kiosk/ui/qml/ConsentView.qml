@@ -52,12 +52,20 @@ PageFrame {
     }
     // On how many lines a point stands.
     function linesOf(text: string, size: int): int {
-        return widths.plainLines(text, size, column - badge * size - Theme.gap)
+        return widths.plainLines(text, size, column - inset(badge * size) - badge * size - apart(badge * size))
+    }
+    // Drawings stand above the squares of the boxes, and words above words: how far in a drawing is, which is so wide, and
+    // how far the words are from it.
+    function inset(drawing: real): real {
+        return Math.max(0, 56 * Theme.unit - drawing / 2)
+    }
+    function apart(drawing: real): real {
+        return Math.max(0.9 * Theme.gap, 88 * Theme.unit + 0.9 * Theme.gap - inset(drawing) - drawing)
     }
     // Points have the letters of the boxes, or somewhat smaller ones where these spare them a line.
     function pointLetters(letters: real): real {
         const lines = less => sum(read.map(each => linesOf(each.text, Math.round(Theme.size(letters - less)))))
-        const tried = [0, 1, 2, 3, 4].map(lines), least = Math.min(...tried)
+        const tried = [0, 1, 2, 3, 4, 5].map(lines), least = Math.min(...tried)
         return letters - tried.indexOf(least)
     }
     // How high a line of a box is: letters and lines have whole pixels.
@@ -149,10 +157,13 @@ PageFrame {
                     model: view.short ? view.read : []
                     SignedLine {
                         required property var modelData
-                        width: points.width
+                        readonly property real indent: view.roomy ? view.inset(badge) : 0
+                        x: Theme.across(indent, width, points.width)
+                        width: points.width - indent
                         text: modelData.text
                         sign: modelData.sign
                         badge: (view.roomy ? view.badge : 2.1) * size
+                        apart: view.roomy ? view.apart(badge) : Theme.gap
                         size: view.roomy ? Theme.size(view.pointLetters(view.used[0])) : Theme.body
                     }
                 }

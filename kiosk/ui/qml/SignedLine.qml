@@ -23,6 +23,8 @@ Item {
     // How wide the drawing is, and the colour of its ground.
     property real badge: 2.5 * size
     property alias ground: mark.color
+    // How far the words are from the drawing.
+    property real apart: (centred ? 1.5 : 1) * Theme.gap
     // Whether the drawing stands in the middle of the lines, and not at the first of them. Beside a large drawing, a
     // heading stands at one place whatever follows it, so that all headings below each other are as far apart as the
     // drawings: its capitals begin a little below the top of the drawing.
@@ -52,7 +54,7 @@ Item {
     }
     Column {
         id: words
-        readonly property real indent: line.signed ? mark.width + (line.centred ? 1.5 : 1) * Theme.gap : 0
+        readonly property real indent: line.signed ? mark.width + line.apart : 0
         x: Theme.across(indent, width, line.width)
         y: line.headed ? line.sunk : !line.signed ? 0 : Math.max(0, (mark.height - height) / 2)
         width: line.width - indent
