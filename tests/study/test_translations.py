@@ -90,7 +90,7 @@ def test_a_new_language_comes_back_from_translators_and_can_be_run(name: str, st
     fill_all(study, tmp_path / f"again-{name}")
     read = read_study(Settings.read(study))
     plan = read.plan("nl")
-    assert plan.information.consent.title == "Before you begin (nl)"
+    assert plan.information.consent.title == "Will you take part? (nl)"
     assert plan.questionnaires[0].items[0].text["nl"] == "I liked it. (nl)"
     assert plan.catalogue.text("consent-required") == "needed (nl)"
     assert not any("still" in warning and "'nl'" in warning for warning in study_warnings(read))

@@ -123,10 +123,10 @@ def test_the_boxes_that_are_needed_stand_below_a_heading_and_the_others_below_a_
 @pytest.mark.parametrize(
     ("required", "heading", "line"),
     [
-        ((True, True, False), "Just play, or tick the first 2", "Tick the first 2 boxes."),
-        ((True, False, False), "Just play, or tick the first box", "Tick the first box."),
-        ((True, True, True), "Just play, or tick the 3 boxes", "Tick the 3 boxes."),
-        ((True,), "Just play, or tick the box", "Tick the box."),
+        ((True, True, False), "To take part, tick these 2", "Tick the first 2 boxes."),
+        ((True, False, False), "To take part, tick this box", "Tick the first box."),
+        ((True, True, True), "To take part, tick the 3 boxes", "Tick the 3 boxes."),
+        ((True,), "To take part, tick the box", "Tick the box."),
         ((False,), None, "Your data are stored."),
     ],
 )
@@ -214,7 +214,7 @@ def under(booth: Booth, name: str) -> QQuickItem:
 
 def test_each_answer_says_what_follows_and_the_heading_which_boxes_are_to_be_ticked(booth: Booth, done: Done) -> None:
     booth.app.screens.consent.show(SHORT)
-    heads = ["Just play, or tick the first 2", "All set. Now choose below."]
+    heads = ["To take part, tick these 2", "All set. Now choose below."]
     for ticks in (frozenset({"share"}), REQUIRED - {"store"}, REQUIRED):
         head = heads[ticks >= REQUIRED]
         booth.app.screens.consent.show_ticks(ticks)
@@ -242,10 +242,10 @@ def test_what_is_to_be_ticked_has_a_strong_edge_until_it_is(booth: Booth) -> Non
             purpose.id: QQmlProperty.read(booth.item(f"purpose-{purpose.id}").property("background"), "border.width")
             for purpose in SHORT.purposes
         }
-        assert {name for name, width in edges.items() if width == max(edges.values())} == (
-            REQUIRED - ticks or {"share"}
-        )
-        assert {name for name, width in edges.items() if width == 0} == ticks
+        # The others all have the same, ticked or not: none of them looks unfinished.
+        assert {name for name, width in edges.items() if width > min(edges.values())} == REQUIRED - ticks
+        assert min(edges.values()) > 0
+        assert len(set(edges.values())) <= 2
 
 
 def show_short(booth: Booth, qtbot: QtBot, language: str, size: tuple[int, int]) -> QQuickWindow:

@@ -36,17 +36,16 @@ consent-required = needed
 consent-optional = up to you
 consent-agreed = agreed
 consent-missing = Please tick this box if you want to take part.
-# Over the boxes, as long as some that are needed have no tick: if all are needed, and if others follow. It is for both
-# answers, and begins with the refusal's words.
+# Over the boxes that are needed, as long as some of them have no tick: if there are no others, and if others follow.
 consent-to-go =
     { $number ->
-        [one] Just play, or tick the box
-       *[other] Just play, or tick the { $number } boxes
+        [one] To take part, tick the box
+       *[other] To take part, tick the { $number } boxes
     }
 consent-first =
     { $number ->
-        [one] Just play, or tick the first box
-       *[other] Just play, or tick the first { $number }
+        [one] To take part, tick this box
+       *[other] To take part, tick these { $number }
     }
 # The same boxes, below the words of the answer that needs them.
 consent-to-go-line =

@@ -37,17 +37,16 @@ consent-required = necesario
 consent-optional = como prefieras
 consent-agreed = de acuerdo
 consent-missing = Si quieres participar, marca esta casilla.
-# Over the boxes, as long as some that are needed have no tick: if all are needed, and if others follow. It is for both
-# answers, and begins with the refusal's words.
+# Over the boxes that are needed, as long as some of them have no tick: if there are no others, and if others follow.
 consent-to-go =
     { $number ->
-        [one] Solo juega, o marca la casilla
-       *[other] Solo juega, o marca las { $number } casillas
+        [one] Para participar, marca la casilla
+       *[other] Para participar, marca las { $number } casillas
     }
 consent-first =
     { $number ->
-        [one] Solo juega, o marca la primera casilla
-       *[other] Solo juega, o marca las { $number } primeras
+        [one] Para participar, marca esta casilla
+       *[other] Para participar, marca estas { $number }
     }
 # The same boxes, below the words of the answer that needs them.
 consent-to-go-line =

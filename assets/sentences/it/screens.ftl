@@ -37,17 +37,16 @@ consent-required = necessario
 consent-optional = come preferisci
 consent-agreed = d'accordo
 consent-missing = Se vuoi partecipare, spunta questa casella.
-# Over the boxes, as long as some that are needed have no tick: if all are needed, and if others follow. It is for both
-# answers, and begins with the refusal's words.
+# Over the boxes that are needed, as long as some of them have no tick: if there are no others, and if others follow.
 consent-to-go =
     { $number ->
-        [one] Gioca e basta, o spunta la casella
-       *[other] Gioca e basta, o spunta le { $number } caselle
+        [one] Per partecipare, spunta la casella
+       *[other] Per partecipare, spunta le { $number } caselle
     }
 consent-first =
     { $number ->
-        [one] Gioca e basta, o spunta la prima casella
-       *[other] Gioca e basta, o spunta le prime { $number }
+        [one] Per partecipare, spunta questa casella
+       *[other] Per partecipare, spunta queste { $number }
     }
 # The same boxes, below the words of the answer that needs them.
 consent-to-go-line =

@@ -33,8 +33,8 @@ Choosable {
         color: !box.on ? (box.lighter && !box.headed ? Theme.white : Theme.touchable) : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, box.headed ? 0.06 : 0.14))
         border {
             color: box.warning ? Theme.deepAmber : box.hovered || box.on || Theme.highContrast || !box.lighter ? Theme.sea : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.45))
-            // Below a heading those that are to be ticked have a strong one, and what is ticked has none.
-            width: (box.warning || box.hovered ? 4 : !box.headed || Theme.highContrast ? box.on ? 4 : 2 : box.on ? 0 : box.lighter ? 2 : 4) * Theme.unit
+            // Below a heading those that are to be ticked have a strong one until they are.
+            width: (box.warning || box.hovered ? 4 : !box.headed || Theme.highContrast ? box.on ? 4 : 2 : box.on || box.lighter ? 2 : 4) * Theme.unit
         }
         FocusRing {
             around: box

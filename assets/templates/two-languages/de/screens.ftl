@@ -36,17 +36,16 @@ consent-required = nötig
 consent-optional = wie du möchtest
 consent-agreed = einverstanden
 consent-missing = Bitte kreuze das an, wenn du teilnehmen möchtest.
-# Over the boxes, as long as some that are needed have no tick: if all are needed, and if others follow. It is for both
-# answers, and begins with the refusal's words.
+# Over the boxes that are needed, as long as some of them have no tick: if there are no others, and if others follow.
 consent-to-go =
     { $number ->
-        [one] Spiel nur, oder kreuze das Kästchen an
-       *[other] Spiel nur, oder kreuze die { $number } Kästchen an
+        [one] Zum Mitmachen kreuze das Kästchen an
+       *[other] Zum Mitmachen kreuze die { $number } Kästchen an
     }
 consent-first =
     { $number ->
-        [one] Spiel nur, oder kreuze das erste Kästchen an
-       *[other] Spiel nur, oder kreuze die ersten { $number } an
+        [one] Zum Mitmachen kreuze dieses Kästchen an
+       *[other] Zum Mitmachen kreuze diese { $number } an
     }
 # The same boxes, below the words of the answer that needs them.
 consent-to-go-line =
