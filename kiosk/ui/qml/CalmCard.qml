@@ -132,7 +132,7 @@ FocusScope {
             id: content
             anchors.centerIn: parent
             width: parent.width - 4 * Theme.gap
-            spacing: (calm.roomy || calm.large && calm.beside > 0 ? (calm.code !== "" ? 2.4 : 2) : calm.large && buttons.alone ? 2 : 1.5) * Theme.gap
+            spacing: (calm.roomy || calm.large && calm.beside > 0 ? (calm.code === "" ? 2 : calm.roomy ? 2.4 : 1.6) : calm.large && buttons.alone ? 2 : 1.5) * Theme.gap
             Row {
                 anchors.horizontalCenter: parent.horizontalCenter
                 visible: calm.lies && !calm.spread
