@@ -544,7 +544,7 @@ def test_the_first_page_needs_no_scrolling_while_a_visitor_plays(
 
 
 @pytest.mark.parametrize(("copies", "under_way", "size", "language"), in_turn([False, True], [False, True], LAYOUTS))
-def test_actions_are_equal_rows_of_one_list_and_the_last_one_ends_the_session(
+def test_actions_stand_in_groups_of_one_height_and_the_last_one_ends_the_session(
     window: Window, language: str, size: tuple[int, int], *, copies: bool, under_way: bool
 ) -> None:
     busy = busy_day(language)
@@ -557,18 +557,32 @@ def test_actions_are_equal_rows_of_one_list_and_the_last_one_ends_the_session(
     (actions,) = of_kind(window.shown.contentItem(), "PanelActions")
     rows = [item for item in items(actions) if item.objectName().startswith(("action-", "test-voice"))]
     assert len(rows) == (3 if under_way else 2) + (not copies)
-    assert len({(item.width(), item.height()) for item in rows}) == 1
+    assert len({item.height() for item in rows}) == 1
+    first, silence, *others = rows
+    wide = size[0] > size[1]
+    if wide:
+        assert len({item.width() for item in rows}) == 1
+    else:
+        # What is done all day stands side by side, and the rest has rows of its own.
+        assert level(first) == level(silence)
+        assert first.width() == silence.width() < 0.5 * actions.width()
+        assert {item.width() for item in others} <= {actions.width()}
     assert [item.objectName() == "action-end" for item in rows] == [False] * (len(rows) - 1) + [under_way]
     assert [words_of(text) for text in texts(actions) if is_broken(text)] == []
     # The answers to when one is back lie between the rows around them, in whole rows.
     answers = [item for item in items(actions) if item.objectName().startswith("break-")]
     assert len(answers) == len(breaks)
     heights = [level(item) for item in answers]
-    assert len(set(map(round, heights))) == (2 if size[0] > size[1] and not under_way else 1)
+    assert len(set(map(round, heights))) == (2 if wide and not under_way else 1)
     above = [item for item in rows if item.objectName() != "action-end"][-1]
     assert min(heights) > level(above) + above.height()
     if under_way:
-        assert max(heights) + answers[0].height() < level(rows[-1])
+        # What ends the session is further from the rest than buttons of one group are from each other.
+        ends = max(heights) + answers[0].height()
+        apart = actions.property("spacing")
+        assert level(rows[-1]) - ends > 2 * apart
+    if wide:
+        assert {item.height() for item in answers} == {first.height()}
 
 
 @pytest.mark.parametrize(("size", "language"), in_turn(LAYOUTS))

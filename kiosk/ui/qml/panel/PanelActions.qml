@@ -1,4 +1,4 @@
-// What can be done at once, as one list: what is done all day first, then a break, and last what ends a session.
+// What can be done at once, in three groups: what is done all day, then a break, and last and apart what ends a session.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -19,15 +19,22 @@ Column {
     readonly property bool normal: Theme.textSize <= 1.15
     readonly property bool underWay: choices.underWay
     readonly property var offered: choices.breaks ?? []
-    readonly property var named: [words[underWay ? "console-repeat" : "console-test-the-voice"], ...(has("backup") ? [words["console-backup"]] : []), ...(has("mute") ? [words[choices.muted ? "console-heard" : "console-mute"]] : [])].map(each => each ?? "")
+    readonly property var named: [words[underWay ? "console-repeat" : "console-test-the-voice"], ...(has("mute") ? [words[choices.muted ? "console-heard" : "console-mute"]] : []), ...(has("backup") ? [words["console-backup"]] : [])].map(each => each ?? "")
 
     // Whole pixels, so that all rows end in line.
     readonly property real across: Math.floor(width)
     readonly property real edge: Math.round(1.4 * Theme.gap)
     readonly property real lettering: lettered(size)
     readonly property real lowest: (wide ? 72 : 88) * Theme.unit
-    readonly property int rows: named.length + (underWay ? 1 : 0) + (offered.length > 0 ? 1 : 0)
-    readonly property real tall: Math.max(low(lettering), Math.min(normal ? 4.8 * lettering : 0, Math.floor((least - beyond(lettering) - (rows - 1) * spacing) / rows)))
+    // The first two stand side by side on an upright page, where both have one line there.
+    readonly property bool paired: pairs(size)
+    readonly property real daily: paired ? Math.floor((across - spacing) / 2) : across
+    readonly property int rows: rowsOf(size)
+    readonly property real tall: Math.max(low(lettering), Math.min(normal ? (wide ? 3.5 : 3.1) * lettering : 0, Math.floor((least - beyond(lettering) - (rows - 1) * spacing - groups * parting) / rows)))
+    // How much further than its buttons the groups are from each other: what is left is shared among them.
+    readonly property int groups: (underWay ? 1 : 0) + (wide && offered.length > 0 ? 1 : 0)
+    readonly property real parting: Math.round((wide ? 16 : 20) * Theme.unit)
+    readonly property real parted: Math.floor(Math.max(parting, Math.min(72 * Theme.unit, (least - beyond(lettering) - rows * tall - (rows - 1) * spacing) / Math.max(1, groups))))
     // The row of the break has its sign before its title, as the others have.
     readonly property real start: startOf(lettering)
 
@@ -37,9 +44,17 @@ Column {
         if (!normal)
             return size
         const most = wide ? size : Math.max(size, Math.min(1.2 * size, 36 * Theme.unit))
-        const room = across - 2 * edge
-        const needs = [...named, words["console-abort"] ?? ""].map(text => wordWidths.bold(text, 1) + 2.1)
-        return Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(most, ...needs.map(each => room / (each + 0.2)))))
+        const room = across - 2 * edge, half = pairs(size) ? Math.floor((across - spacing) / 2) - 2 * edge : room
+        const needs = [...named, words["console-abort"] ?? ""].map((text, at) => (at < 2 ? half : room) / (wordWidths.bold(text, 1) + 2.3))
+        return Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(most, ...needs)))
+    }
+    function pairs(size: real): bool {
+        const half = Math.floor((across - spacing) / 2) - 2 * edge
+        return !wide && has("mute") && named.slice(0, 2).every(text => size * (wordWidths.bold(text, 1) + 2.3) <= half)
+    }
+    function rowsOf(size: real): int {
+        const asked = offered.length === 0 ? 0 : wide ? Math.ceil(offered.length / besides()) : 1
+        return named.length - (pairs(size) ? 1 : 0) + (underWay ? 1 : 0) + asked
     }
     function startOf(size: real): real {
         return edge + 2.05 * size
@@ -47,32 +62,36 @@ Column {
     function low(size: real): real {
         return Math.ceil(Math.max(lowest, 1.4 * size + 18 * Theme.unit))
     }
-    // How much higher than the others the row of the break is, whose title stands above its answers in a column.
+    // What the break needs beyond its rows: its title stands above its answers in a column.
     function beyond(size: real): real {
         if (offered.length === 0)
             return 0
         if (!wide)
             return isWhole(size) ? 0 : Math.ceil(Math.max(0, 2.6 * size + 24 * Theme.unit - low(size)))
-        const many = Math.ceil(offered.length / besides()), title = wordWidths.plainLines(words["console-break"] ?? "", size, across - startOf(size) - edge)
-        return Math.ceil(Math.max(0, 1.4 * size * title + 8 * Theme.unit + many * (answer(size) + between) - between + 32 * Theme.unit - low(size)))
+        return titled(size) + below
     }
+    function titled(size: real): real {
+        return Math.ceil(1.4 * size * wordWidths.plainLines(words["console-break"] ?? "", size, across - startOf(size) - edge))
+    }
+    readonly property real below: Math.round(10 * Theme.unit)
     // Whether the title of the break has one line beside its answers, on an upright page.
     function isWhole(size: real): bool {
         const widest = Math.max(0, ...offered.map(option => wordWidths.bold(option.label, size)))
         return 1.02 * wordWidths.plain(words["console-break"] ?? "", size) + Theme.gap + offered.length * (widest + 60 * Theme.unit) <= across - startOf(size) - edge
     }
-    // How high an answer is, how far from the next, and how many stand in a row: four have two rows in a column.
+    // How high an answer is beside its title, how far from the next, and how many stand in a row: four have two rows in a
+    // column.
     function answer(size: real): real {
         return Math.max(64 * Theme.unit, 1.4 * size + 18 * Theme.unit)
     }
-    readonly property real between: Math.round(10 * Theme.unit)
+    readonly property real between: wide ? spacing : Math.round(10 * Theme.unit)
     function besides(): int {
         return wide && offered.length > 3 ? 2 : Math.max(1, offered.length)
     }
     // How high they are at least if their words are written so large.
     function deep(size: real): real {
         const letters = lettered(size)
-        return Math.ceil(rows * low(letters) + beyond(letters) + (rows - 1) * spacing)
+        return Math.ceil(rowsOf(size) * (low(letters) + spacing) - spacing + beyond(letters) + groups * parting)
     }
 
     // Whether the button of an action stands here.
@@ -99,29 +118,37 @@ Column {
         font.pixelSize: actions.lettering
     }
 
-    // While a visitor is there, the voice is theirs.
-    Action {
-        objectName: "test-voice"
-        visible: !actions.underWay
-        enabled: !actions.choices.muted
-        words: actions.words["console-test-the-voice"]
-        drawing: "M3.5 4.5 H20.5 V16 H11.5 L7 20.5 V16 H3.5 Z"
-        onClicked: actions.panel.wish("test_voice", "")
-    }
-    Action {
-        objectName: "action-again"
-        visible: actions.underWay
-        words: actions.words["console-repeat"]
-        drawing: "M19.5 12 A7.5 7.5 0 1 1 16.6 6.1 M17.5 2 V6.8 H12.7"
-        onClicked: actions.panel.wish("repeat", "")
-    }
-    Action {
-        id: mute
-        objectName: "action-mute"
-        visible: actions.has("mute")
-        words: actions.choices.muted ? actions.words["console-heard"] : actions.words["console-mute"]
-        drawing: "M3 9.5 H7 L12.5 5 V19 L7 14.5 H3 Z " + (actions.choices.muted ? "M16 9 A4.5 4.5 0 0 1 16 15 M18.8 6.2 A8.5 8.5 0 0 1 18.8 17.8" : "M16.5 9.5 L21.5 14.5 M21.5 9.5 L16.5 14.5")
-        onClicked: actions.panel.wish("mute", "")
+    Grid {
+        columns: actions.paired ? 2 : 1
+        spacing: actions.spacing
+
+        // While a visitor is there, the voice is theirs.
+        Action {
+            width: actions.daily
+            objectName: "test-voice"
+            visible: !actions.underWay
+            enabled: !actions.choices.muted
+            words: actions.words["console-test-the-voice"]
+            drawing: "M3.5 4.5 H20.5 V16 H11.5 L7 20.5 V16 H3.5 Z"
+            onClicked: actions.panel.wish("test_voice", "")
+        }
+        Action {
+            width: actions.daily
+            objectName: "action-again"
+            visible: actions.underWay
+            words: actions.words["console-repeat"]
+            drawing: "M19.5 12 A7.5 7.5 0 1 1 16.6 6.1 M17.5 2 V6.8 H12.7"
+            onClicked: actions.panel.wish("repeat", "")
+        }
+        Action {
+            width: actions.daily
+            id: mute
+            objectName: "action-mute"
+            visible: actions.has("mute")
+            words: actions.choices.muted ? actions.words["console-heard"] : actions.words["console-mute"]
+            drawing: "M3 9.5 H7 L12.5 5 V19 L7 14.5 H3 Z " + (actions.choices.muted ? "M16 9 A4.5 4.5 0 0 1 16 15 M18.8 6.2 A8.5 8.5 0 0 1 18.8 17.8" : "M16.5 9.5 L21.5 14.5 M21.5 9.5 L16.5 14.5")
+            onClicked: actions.panel.wish("mute", "")
+        }
     }
     // Why a copy has to wait may take two lines.
     Action {
@@ -133,6 +160,11 @@ Column {
         drawing: "M8.5 8 H20 V21 H8.5 Z M5 16 H4 V3 H15.5 V4.5"
         onClicked: actions.panel.wish("backup", "")
     }
+    Item {
+        visible: actions.wide && pause.visible
+        width: actions.across
+        height: actions.parted - actions.spacing
+    }
     Rectangle {
         id: pause
         readonly property real sign: 1.45 * actions.lettering
@@ -143,11 +175,11 @@ Column {
         readonly property real beside: actions.isWhole(actions.lettering) ? whole : Math.ceil(0.62 * whole)
         visible: actions.offered.length > 0
         width: actions.across
-        height: actions.tall + actions.beyond(actions.lettering)
+        height: actions.wide ? breaks.y + breaks.height : actions.tall + actions.beyond(actions.lettering)
         radius: Theme.radius
-        // A card and not a button: what is pressed stands in it.
-        color: Theme.white
-        border { color: Theme.edge; width: 2 * Theme.unit }
+        // Beside its answers the title stands on a card, and above them it is their heading.
+        color: actions.wide ? "transparent" : Theme.white
+        border { color: Theme.edge; width: (actions.wide ? 0 : 2) * Theme.unit }
         Drawing {
             x: actions.edge + (pause.sign - width) / 2
             y: asked.y + (asked.height - height) / 2
@@ -158,7 +190,7 @@ Column {
         Balanced {
             id: asked
             x: actions.start
-            y: actions.wide ? Math.floor((pause.height - height - 8 * Theme.unit - breaks.height) / 2 - 0.1 * actions.lettering) : Math.floor((pause.height - height) / 2)
+            y: actions.wide ? 0 : Math.floor((pause.height - height) / 2)
             width: actions.wide ? pause.room : pause.beside
             horizontalAlignment: Text.AlignLeft
             lineHeight: actions.wide ? 1 : 0.9
@@ -168,15 +200,15 @@ Column {
         }
         PanelChoice {
             id: breaks
-            x: actions.wide ? actions.start : actions.start + pause.beside + Theme.gap
-            y: actions.wide ? asked.y + asked.height + 8 * Theme.unit : Math.floor((pause.height - height) / 2)
-            width: actions.across - actions.edge - x
+            x: actions.wide ? 0 : actions.start + pause.beside + Theme.gap
+            y: actions.wide ? actions.beyond(actions.lettering) : Math.floor((pause.height - height) / 2)
+            width: actions.wide ? actions.across : actions.across - actions.edge - x
             action: "break"
             titled: false
             even: true
             across: actions.besides()
             between: actions.between
-            least: actions.answer(actions.lettering)
+            least: actions.wide ? actions.tall : actions.answer(actions.lettering)
             size: actions.lettering
             // A little smaller where that keeps them in their row.
             lettering: Math.floor(actions.lettering * Math.min(1, (each - 20 * Theme.unit) / Math.max(1, pause.widest)))
@@ -187,7 +219,12 @@ Column {
             onPicked: value => actions.panel.wish("break", value)
         }
     }
-    // Last: it takes a game from a visitor.
+    Item {
+        visible: actions.underWay
+        width: actions.across
+        height: actions.parted - actions.spacing
+    }
+    // Last and apart: it takes a game from a visitor.
     Action {
         objectName: "action-end"
         visible: actions.underWay

@@ -41,7 +41,7 @@ Rectangle {
         return Boolean(matter.action || matter.command)
     }
     function typedOf(size: real): real {
-        return Math.max((signed ? 27 : 28) * Theme.unit * Math.max(1, Theme.textSize), signed ? 0.9 * size : 0)
+        return Math.max((signed ? 27 : 30) * Theme.unit * Math.max(1, Theme.textSize), signed ? size : 0)
     }
     function answeringOf(size: real): real {
         const wide = matter => matter.action ? wordWidths.bold(matter.button, size) + 2.05 * size + (Theme.upright ? 32 : 44) * Theme.unit

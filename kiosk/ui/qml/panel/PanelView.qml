@@ -186,7 +186,7 @@ FocusScope {
                 wide: view.wide
                 seen: pane.height
                 // Its parts stand further from each other than what belongs together in them.
-                space: Math.round((view.wide ? 1.3 : 1.15) * view.space)
+                space: Math.round((view.wide ? 1.3 : 1.5) * view.space)
             }
             // Made when they are turned to: the panel opens the sooner.
             Loader {
