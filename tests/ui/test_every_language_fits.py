@@ -1347,6 +1347,13 @@ def test_the_ticket_of_a_code_is_as_far_from_its_words_above_as_below(
     least = 27 * min(layout.width, layout.height) / 1080
     assert above == pytest.approx(below, abs=3)
     assert min(above, below) >= least
+    # The code is larger than the words above and below it, which are whole sentences by themselves.
+    (asked, _), (coded, largest), (told, _) = sorted(
+        ((text, text.property("font").pixelSize()) for text in texts(ticket)), key=lambda pair: whole(pair[0]).top()
+    )
+    assert coded is code
+    assert largest > 1.7 * max(text.property("font").pixelSize() for text in (asked, told))
+    assert not any(plan.catalogue.text("stop-line-kept").endswith(":") for plan in study.plans)
     # The answers follow the question, and the ticket is for later.
     assert frame.top() > max(whole(button).bottom() for button in (on, stop))
     kiosk.ask("")
