@@ -114,7 +114,7 @@ class ConsentScreen(QObject):
 
     @Property(str, notify=marked)
     def toGo(self) -> str:  # noqa: N802 - QML's convention
-        """Return the choice between the refusal and the boxes that are to be ticked; empty once all of them are."""
+        """Return how many boxes are to be ticked to take part; empty once all of them are."""
         return self._name_boxes("")
 
     @Property(str, notify=marked)
