@@ -1,4 +1,4 @@
-// Points between two ends: numbers, as the equal fields of one bar, or pictures. Nothing is chosen beforehand.
+// Points between two ends, as numbers or as pictures. Nothing is chosen beforehand.
 pragma ComponentBehavior: Bound
 import QtQuick
 import ".."
@@ -42,25 +42,21 @@ Item {
     // from edge to edge, and the words stand below them.
     readonly property bool many: points > 7 && !pictured
     readonly property bool spread: flank !== null && many && !crowned
-    // How large a point would be that stands by itself, and how far it would be from the next one.
-    readonly property real single: lone ? Math.min(wish, filling) : spread ? Math.min(76 * Theme.unit, filling) : (flank ?? table)?.point ?? Math.min(wish, many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
-    readonly property real between: table || lone || beside && !flank || many && below ? (width - points * single) / Math.max(1, points - 1) : flank ? spare / Math.max(1, points - 1) : pictured ? 0.4 * single
-        : Math.min(1.6 * single, Math.max(0.25 * single, (below ? width - points * single : spare) / Math.max(1, points - 1)))
-    readonly property real span: points * single + (points - 1) * between
-    // A bar is as long as all of these, and its fields have no distance between them.
-    readonly property real size: pictured ? single : Math.floor(span) / points
-    readonly property real gap: pictured ? between : 0
-    readonly property real tall: pictured ? single : table?.point ?? lone?.tall ?? (many && flank === null ? wish : single)
-    // How round the ends of a bar are: a field has half its width for that.
-    readonly property real rounding: Math.floor(Math.min(tall, size) / 2)
+    // How large a point is, and how far it is from the next one.
+    readonly property real size: lone ? Math.min(wish, filling) : spread ? Math.min(76 * Theme.unit, filling) : flank?.point ?? Math.min(table?.point ?? wish, table !== null ? filling : many ? Math.min(84 * Theme.unit, filling) : width / (points * 1.45))
+    readonly property real gap: table || lone || beside && !flank || many && below ? (width - points * size) / Math.max(1, points - 1) : flank ? spare / Math.max(1, points - 1) : pictured ? 0.4 * size
+        : Math.min(1.6 * size, Math.max(0.25 * size, (below ? width - points * size : spare) / Math.max(1, points - 1)))
+    readonly property real span: points * size + (points - 1) * gap
+    // Many narrow ones are higher than wide, where there is the height.
+    readonly property real tall: pictured || size > 0.75 * wish ? size : lone?.tall ?? table?.point ?? (many && flank === null ? wish : size)
     readonly property real filling: width / (points + (lone?.apart ?? 0.24) * (points - 1))
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real most: 250 * Theme.unit * Theme.textSize
-    readonly property bool roomy: lowest.implicitWidth + highest.implicitWidth + 2 * Theme.gap + points * single + least <= width
+    readonly property bool roomy: lowest.implicitWidth + highest.implicitWidth + 2 * Theme.gap + points * size + least <= width
     readonly property real leftRoom: crowned ? lowest.implicitWidth : flank ? flank.left : roomy ? lowest.implicitWidth : Math.min(lowest.implicitWidth, most)
     readonly property real rightRoom: crowned ? Math.max(flank?.right ?? 0, highest.implicitWidth) : flank ? flank.right : roomy ? highest.implicitWidth : Math.min(highest.implicitWidth, most)
-    readonly property real spare: width - leftRoom - rightRoom - 2 * Theme.gap - points * single
-    readonly property real least: 0.42 * single * (points - 1)
+    readonly property real spare: width - leftRoom - rightRoom - 2 * Theme.gap - points * size
+    readonly property real least: 0.42 * size * (points - 1)
     readonly property bool below: spread || !flank && (table !== null || lone !== null || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least))
 
     readonly property real under: (spread ? 4 : own ? 6 : table !== null ? 8 : large && Theme.textSize <= 1.15 ? 14 : 12) * Theme.unit
@@ -102,15 +98,14 @@ Item {
         wrapMode: Text.Wrap
         color: Theme.ink
     }
-    // The ground of a bar.
+    // The line that joins the points to a scale.
     Rectangle {
         visible: !scale.pictured
-        x: row.x
-        y: row.y
-        width: row.width
-        height: row.height
-        radius: scale.rounding
-        color: Theme.touchable
+        x: row.x + scale.size / 2
+        y: row.y + (scale.tall - height) / 2
+        width: scale.span - scale.size
+        height: 4 * Theme.unit
+        color: Theme.edge
     }
     Row {
         id: row
@@ -135,11 +130,8 @@ Item {
                 on: scale.value === number
                 focusPolicy: on || (scale.value === 0 && index === 0) ? Qt.StrongFocus : Qt.ClickFocus
                 focus: index === 0
-                // Lines between fields are on whole pixels.
-                width: scale.pictured ? scale.size : Math.round((index + 1) * scale.size) - Math.round(index * scale.size)
+                width: scale.size
                 height: scale.tall
-                readonly property bool leftmost: index === (Theme.mirrored ? scale.points - 1 : 0)
-                readonly property bool rightmost: index === (Theme.mirrored ? 0 : scale.points - 1)
                 z: visualFocus ? 1 : 0
                 scale: down ? 0.94 : 1
                 Accessible.role: Accessible.RadioButton
@@ -155,7 +147,7 @@ Item {
                         visible: !scale.pictured
                         readonly property real reach: Math.min(scale.size, scale.tall)
                         text: point.number
-                        font { pixelSize: Math.min(scale.lone ? Theme.size(56) : Theme.heading, Math.max((scale.lone ? 0.53 : 0.48) * reach, Math.min(Theme.body, 0.5 * reach))); bold: true }
+                        font { pixelSize: Math.min(scale.lone ? Theme.size(56) : Theme.heading, Math.max((scale.lone && scale.tall > scale.size ? 0.6 : scale.lone ? 0.53 : 0.48) * reach, Math.min(Theme.body, 0.5 * reach))); bold: true }
                         color: point.on ? Theme.white : Theme.ink
                     }
                     Image {
@@ -168,43 +160,18 @@ Item {
                     }
                 }
                 background: Rectangle {
-                    radius: scale.pictured ? Theme.radius : 0
-                    // A bar is round at its own ends.
-                    topLeftRadius: !scale.pictured && point.leftmost ? scale.rounding : radius
-                    bottomLeftRadius: topLeftRadius
-                    topRightRadius: !scale.pictured && point.rightmost ? scale.rounding : radius
-                    bottomRightRadius: topRightRadius
+                    radius: scale.pictured ? Theme.radius : width / 2
                     // Only what is chosen is filled; the pointer over it changes the edge alone.
-                    color: point.on ? (scale.pictured ? Theme.sand : Theme.sea) : scale.pictured ? Theme.white : "transparent"
+                    color: point.on ? (scale.pictured ? Theme.sand : Theme.sea) : scale.pictured ? Theme.white : Theme.touchable
                     border.color: Theme.sea
-                    border.width: (scale.pictured && point.on ? 8 : point.hovered ? 5 : scale.pictured ? 3 : 0) * Theme.unit
-                    // What parts the fields of a bar.
-                    Rectangle {
-                        visible: !scale.pictured && point.index > 0
-                        x: Theme.across(-width / 2, width, parent.width)
-                        y: (parent.height - height) / 2
-                        width: 3 * Theme.unit
-                        height: (Theme.highContrast ? 1 : 0.5) * parent.height
-                        color: Theme.shy
-                    }
+                    border.width: (point.on && scale.pictured ? 8 : point.hovered ? 5 : 3) * Theme.unit
                     FocusRing {
                         around: point
                         reach: 8 * Theme.unit
-                        radius: Theme.radius + (scale.pictured ? reach : 0)
+                        radius: scale.pictured ? Theme.radius + reach : width / 2
                     }
                 }
             }
         }
-    }
-    // The edge of a bar.
-    Rectangle {
-        visible: !scale.pictured
-        x: row.x
-        y: row.y
-        width: row.width
-        height: row.height
-        radius: scale.rounding
-        color: "transparent"
-        border { color: Theme.sea; width: 3 * Theme.unit }
     }
 }
