@@ -151,11 +151,7 @@ def test_the_heading_and_the_agreement_say_which_boxes_are_to_be_ticked(
 def test_the_button_for_all_of_the_text_stands_clear_of_every_word(
     booth: Booth, qtbot: QtBot, size: tuple[int, int], sheet: str, scale: float
 ) -> None:
-    booth.app.window.setProperty("textSize", scale)
-    window = show_short(booth, qtbot, sheet.rpartition("/")[2].removesuffix(".toml"), size)
-    booth.app.screens.consent.show(read_sheet(sheet))
-    booth.app.screens.kiosk.offer_back(offered=True)
-    booth.settle()
+    window = show_sheet(booth, qtbot, sheet, size, scale)
     lay_out(window)
     button = place(booth.item("read-more"))
     others = [each for each in texts(window.contentItem()) if not lies_in(each, "BigButton")]
@@ -246,6 +242,16 @@ def test_what_is_to_be_ticked_has_a_strong_edge_until_it_is(booth: Booth) -> Non
         assert {name for name, width in edges.items() if width > min(edges.values())} == REQUIRED - ticks
         assert min(edges.values()) > 0
         assert len(set(edges.values())) <= 2
+
+
+def show_sheet(booth: Booth, qtbot: QtBot, sheet: str, size: tuple[int, int], scale: float) -> QQuickWindow:
+    """Show a shipped sheet with its way back, in a window of this size and letters of this scale."""
+    booth.app.window.setProperty("textSize", scale)
+    window = show_short(booth, qtbot, sheet.rpartition("/")[2].removesuffix(".toml"), size)
+    booth.app.screens.consent.show(read_sheet(sheet))
+    booth.app.screens.kiosk.offer_back(offered=True)
+    booth.settle()
+    return window
 
 
 def show_short(booth: Booth, qtbot: QtBot, language: str, size: tuple[int, int]) -> QQuickWindow:
@@ -355,11 +361,7 @@ def test_of_several_boxes_of_a_card_that_are_missed_the_first_says_so_in_words(b
 def test_words_about_missed_boxes_push_nothing_out_of_view(
     booth: Booth, qtbot: QtBot, size: tuple[int, int], sheet: str, scale: float
 ) -> None:
-    booth.app.window.setProperty("textSize", scale)
-    window = show_short(booth, qtbot, sheet.rpartition("/")[2].removesuffix(".toml"), size)
-    booth.app.screens.consent.show(read_sheet(sheet))
-    booth.app.screens.kiosk.offer_back(offered=True)
-    booth.settle()
+    window = show_sheet(booth, qtbot, sheet, size, scale)
     booth.app.screens.consent.show_missing(("take_part", "store"))
     lay_out(window)
     assert not booth.sees("more")

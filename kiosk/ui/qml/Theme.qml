@@ -85,4 +85,8 @@ QtObject {
     function size(usual: real): real {
         return Math.max(24, usual * textSize) * unit
     }
+    // How large a picture of so many squares a side is in so much room: whole pixels for each, so that edges are sharp.
+    function sharpSide(room: real, squares: int): real {
+        return Math.max(2, Math.floor(room / Math.max(1, squares))) * squares
+    }
 }

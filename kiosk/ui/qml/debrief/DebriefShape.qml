@@ -39,9 +39,9 @@ QtObject {
     function isHeading(text: string): bool {
         return !text.includes("\n") && points.some(point => point.text.includes("\n"))
     }
-    // How large the code is in so much room: whole pixels for each square, so that their edges are sharp.
+    // How large the code is in so much room.
     function codeSide(most: real): real {
-        return Math.max(2, Math.floor(most / Math.max(1, squares))) * squares
+        return Theme.sharpSide(most, squares)
     }
     // How high a line of letters of this size is; those of points stand closer.
     function lineHeight(size: real): real {

@@ -26,7 +26,7 @@ QtObject {
         if (code === "" || slot.width <= 0 || widest === undefined)
             return null
         for (const [note, side, letters] of trials) {
-            const tried = {note: Theme.size(note), side: codeSide(side * Theme.unit), letters: Math.min(widest, Theme.size(letters))}
+            const tried = {note: Theme.size(note), side: Theme.sharpSide(side * Theme.unit, squares), letters: Math.min(widest, Theme.size(letters))}
             if (fits(tried.note) && heightOf(tried) <= slot.height)
                 return tried
         }
@@ -44,10 +44,6 @@ QtObject {
     // How much of the white around the code's squares is beyond the height that it takes: it may come close to letters.
     function spare(side: real): real {
         return 2.5 * side / Math.max(1, squares)
-    }
-    // Whole pixels for each square, so that their edges are sharp.
-    function codeSide(most: real): real {
-        return Math.max(2, Math.floor(most / Math.max(1, squares))) * squares
     }
     // Whether no word of what is said is longer than a line.
     function fits(size: real): bool {
