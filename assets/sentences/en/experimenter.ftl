@@ -243,6 +243,7 @@ console-next = Next visitor
 console-resume = Go on with a session that was cut off
 console-resume-one = { $participant } · { $when } · { $stage }
 console-backup = Make a copy
+console-how = How
 console-quit = Leave the kiosk
 
 ## Alarms

@@ -243,6 +243,7 @@ console-next = Siguiente persona
 console-resume = Reanudar una sesión cortada
 console-resume-one = { $participant } · { $when } · { $stage }
 console-backup = Hacer una copia
+console-how = Cómo
 console-quit = Salir del quiosco
 
 ## Alarmas

@@ -243,6 +243,7 @@ console-next = Prossima persona
 console-resume = Riprendi una seduta interrotta
 console-resume-one = { $participant } · { $when } · { $stage }
 console-backup = Fai una copia
+console-how = Come fare
 console-quit = Esci dal chiosco
 
 ## Allarmi

@@ -285,8 +285,10 @@ class Panel:
 
 
 def _weight(line: HealthLine) -> int:
-    """Return the place of a matter among the others: silence first, which one press ends, and the copies last."""
-    return {Action.MUTE.value: 0, Action.BACKUP.value: 2}.get(line.action, 1)
+    """Return the place of a matter: first what a button does here, and last what is typed elsewhere."""
+    if line.action:
+        return 0 if line.action == Action.MUTE.value else 1
+    return 3 if line.command else 2
 
 
 def copy_words(upkeep: MaintenanceScheduler, catalogue: Catalogue) -> str:
@@ -351,6 +353,7 @@ WORDS = (
     "console-next",
     "console-resume",
     "console-backup",
+    "console-how",
     "console-quit",
     "console-keys",
 )

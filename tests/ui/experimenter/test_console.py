@@ -335,7 +335,7 @@ def test_the_notice_has_all_that_is_to_be_done_and_the_checks_only_what_is_well(
     assert shows(window, "Disk")
     tab_to(assigner, "action-backup")
     assigner.app.experimenter.upkeep.free_space = FreeSpace(100)
-    assigner.wait_until(lambda: matters(assigner) == ["Disk", "Database"])
+    assigner.wait_until(lambda: matters(assigner) == ["Database", "Disk"])
     # The keyboard stays on the button in the notice, which stands nowhere else.
     assert held(assigner) == "action-backup"
     (notice,) = of_kind(assigner.app.window.contentItem(), "PanelNotice")

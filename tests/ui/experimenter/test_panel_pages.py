@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 from PySide6.QtCore import QCoreApplication, QPointF, Qt
-from PySide6.QtGui import QFont, QFontMetricsF, QGuiApplication
+from PySide6.QtGui import QAccessible, QFont, QFontMetricsF, QGuiApplication
 from PySide6.QtQml import QQmlProperty
 from PySide6.QtQuick import QQuickItem
 from PySide6.QtTest import QTest
@@ -411,6 +411,25 @@ def with_the_copy(language: str) -> dict[str, Any]:
     return dict(health | {"matters": [*health["matters"], asdict(copy)]})
 
 
+def asking(window: Window) -> list[QQuickItem]:
+    """Return the buttons that show a command, from above."""
+    found = [item for item in items(window.shown.contentItem()) if item.objectName().startswith("how-recollect ")]
+    return sorted((item for item in found if item.isVisible()), key=level)
+
+
+def press(button: QQuickItem) -> None:
+    """Press a button, and wait until what it changes is laid out."""
+    button.metaObject().invokeMethod(button, "click")
+    QCoreApplication.processEvents()
+
+
+def turn_answers(window: Window) -> None:
+    """Press each button that shows a command."""
+    for button in asking(window):
+        press(button)
+    lay_out(window.shown)
+
+
 def letters_of(text: QQuickItem) -> int:
     """Return how large a text is written, in pixels."""
     font = text.property("font")
@@ -463,13 +482,19 @@ def test_the_button_that_answers_a_matter_stands_there_alone_and_all_answers_hav
     assert [lies_in(item, "PanelNotice") for item in found] == [True]
     assert found[0].height() >= 72 * unit_of(size)
     (notice,) = of_kind(window.shown.contentItem(), "PanelNotice")
+    closed = [(round(item.width()), round(item.height())) for item in asking(window)]
+    turn_answers(window)
     commands = [text for text in texts(notice) if words_of(text).startswith("recollect ")]
-    answers = [*(text.parentItem() for text in commands), found[0]]
+    answers = [found[0], *(text.parentItem() for text in commands)]
     assert len(answers) == 3
+    # What shows a command is as large as the button that does something here, and stays so.
+    assert {*closed, *((round(item.width()), round(item.height())) for item in asking(window))} == {
+        (round(found[0].width()), round(found[0].height()))
+    }
     places = [(round(item.mapToScene(QPointF()).x()), round(item.width()), round(item.height())) for item in answers]
     assert len(set(places)) == 1
     tops = [level(item) for item in answers]
-    assert tops == sorted(tops), "they stand below each other"
+    assert tops == sorted(tops), "what is done here stands first"
     # Nothing is cut off, wrapped or covered.
     assert [words_of(text) for text in commands if text.property("lineCount") > 1] == []
     for text in texts(notice):
@@ -481,18 +506,54 @@ def test_the_button_that_answers_a_matter_stands_there_alone_and_all_answers_hav
                 assert across or level(text) + text.height() <= level(answer) or level(text) >= level(answer)
 
 
+@pytest.mark.parametrize("language", sorted(CATALOGUES))
+def test_a_command_is_shown_and_said_when_it_is_asked_for_until_its_button_is_pressed_again(
+    window: Window, language: str
+) -> None:
+    show(window, language, WIDE)
+    how, (pin, supervisor) = CATALOGUES[language].text("console-how"), asking(window)
+    command = "recollect study set-pin"
+    for shown in (False, True, False):
+        seen = [words_of(text) for text in texts(pin.parentItem()) if text.isVisible() and words_of(text)]
+        assert seen == [command if shown else how]
+        said = QAccessible.queryAccessibleInterface(pin).text(QAccessible.Text.Name)
+        assert said == (command if shown else f"{how} PIN: {CATALOGUES[language].text('console-pin-none')}")
+        assert [words_of(text) for text in texts(supervisor) if words_of(text)] == [how]
+        press(pin)
+    # It is hidden for the one who opens the panel next.
+    show(window, language, WIDE)
+    assert {words_of(text) for item in asking(window) for text in texts(item) if words_of(text)} == {how}
+
+
+def test_a_command_stays_shown_and_held_by_the_keyboard_when_something_else_goes_wrong(window: Window) -> None:
+    show(window, "en", WIDE)
+    pin = asking(window)[0]
+    pin.forceActiveFocus()
+    press(pin)
+    health = with_the_copy("en")
+    fault = asdict(HealthLine("Robot", "does not answer", is_ok=False, remedy="Look"))
+    window.screens.experimenter.parts[2].show_health(health | {"matters": [*health["matters"], fault]})
+    QCoreApplication.processEvents()
+    lay_out(window.shown)
+    held = window.shown.activeFocusItem()
+    assert held is not None
+    assert held.objectName() == "how-recollect study set-pin"
+    (notice,) = of_kind(window.shown.contentItem(), "PanelNotice")
+    assert "recollect study set-pin" in [words_of(text) for text in texts(notice)]
+
+
 @pytest.mark.parametrize("size", [WIDE, UPRIGHT])
 def test_a_command_to_type_elsewhere_is_as_dark_as_what_to_do_and_in_letters_of_one_width(
     window: Window, size: tuple[int, int]
 ) -> None:
     show(window, "en", size)
     (notice,) = of_kind(window.shown.contentItem(), "PanelNotice")
+    turn_answers(window)
     shown = {words_of(text): text for text in texts(notice)}
     remedy, command = shown["Set one before you open"], shown["recollect study set-pin"]
     assert command.property("color") == remedy.property("color")
     letters = QFontMetricsF(command.property("font"))
     assert letters.horizontalAdvance("i") == letters.horizontalAdvance("m")
-    # What cannot be pressed has no ground of its own.
     picture = window.shown.grabWindow()
     assert background(picture, place(command.parentItem())) == background(picture, place(remedy))
 
@@ -577,10 +638,17 @@ def test_actions_stand_in_groups_of_one_height_and_the_last_one_ends_the_session
     above = [item for item in rows if item.objectName() != "action-end"][-1]
     assert min(heights) > level(above) + above.height()
     if under_way:
-        # What ends the session is further from the rest than buttons of one group are from each other.
+        # What ends the session is as far from the rest as all groups are from each other, and as the page's cards are.
         ends = max(heights) + answers[0].height()
-        apart = actions.property("spacing")
-        assert level(rows[-1]) - ends > 2 * apart
+        (today,) = of_kind(window.shown.contentItem(), "PanelToday")
+        assert level(rows[-1]) - ends == pytest.approx(today.property("space"), abs=ROUNDED)
+    # The heading of the break begins where its answers do, and is as bold as they are.
+    heading = next(text for text in texts(actions) if words_of(text) == CATALOGUES[language].text("console-break"))
+    first_answer = min(answers, key=lambda item: item.mapToScene(QPointF()).x())
+    assert heading.mapToScene(QPointF()).x() == pytest.approx(first_answer.mapToScene(QPointF()).x(), abs=1)
+    assert {
+        text.property("font").bold() for text in [heading, *(each for item in answers for each in texts(item))]
+    } == {True}
     if wide:
         assert {item.height() for item in answers} == {first.height()}
 

@@ -1,4 +1,4 @@
-// What can be done at once, in three groups: what is done all day, then a break, and last and apart what ends a session.
+// What can be done at once, one gap apart: what is done all day, then a break, and last what ends a session.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -14,6 +14,8 @@ Column {
     // How large their words are where they fit, and how high the list is at least.
     required property real size
     property real least: 0
+    // One gap parts them all, as it parts the cards of the page.
+    required property real space
     readonly property var words: panel.words
     readonly property var choices: panel.choices
     readonly property bool normal: Theme.textSize <= 1.15
@@ -30,13 +32,7 @@ Column {
     readonly property bool paired: pairs(size)
     readonly property real daily: paired ? Math.floor((across - spacing) / 2) : across
     readonly property int rows: rowsOf(size)
-    readonly property real tall: Math.max(low(lettering), Math.min(normal ? (wide ? 3.5 : 3.1) * lettering : 0, Math.floor((least - beyond(lettering) - (rows - 1) * spacing - groups * parting) / rows)))
-    // How much further than its buttons the groups are from each other: what is left is shared among them.
-    readonly property int groups: (underWay ? 1 : 0) + (wide && offered.length > 0 ? 1 : 0)
-    readonly property real parting: Math.round((wide ? 16 : 20) * Theme.unit)
-    readonly property real parted: Math.floor(Math.max(parting, Math.min(72 * Theme.unit, (least - beyond(lettering) - rows * tall - (rows - 1) * spacing) / Math.max(1, groups))))
-    // The row of the break has its sign before its title, as the others have.
-    readonly property real start: startOf(lettering)
+    readonly property real tall: Math.max(low(lettering), Math.min(normal ? (wide ? 4.2 : 3.1) * lettering : 0, Math.floor((least - beyond(lettering) - (rows - 1) * spacing) / rows)))
 
     // All words have one line, where that does not make them small. On an upright page they have the room to be larger
     // than those of the notice.
@@ -53,45 +49,28 @@ Column {
         return !wide && has("mute") && named.slice(0, 2).every(text => size * (wordWidths.bold(text, 1) + 2.3) <= half)
     }
     function rowsOf(size: real): int {
-        const asked = offered.length === 0 ? 0 : wide ? Math.ceil(offered.length / besides()) : 1
+        const asked = Math.ceil(offered.length / besides())
         return named.length - (pairs(size) ? 1 : 0) + (underWay ? 1 : 0) + asked
-    }
-    function startOf(size: real): real {
-        return edge + 2.05 * size
     }
     function low(size: real): real {
         return Math.ceil(Math.max(lowest, 1.4 * size + 18 * Theme.unit))
     }
-    // What the break needs beyond its rows: its title stands above its answers in a column.
+    // What the break needs beyond its rows: its title stands above its answers.
     function beyond(size: real): real {
-        if (offered.length === 0)
-            return 0
-        if (!wide)
-            return isWhole(size) ? 0 : Math.ceil(Math.max(0, 2.6 * size + 24 * Theme.unit - low(size)))
-        return titled(size) + below
+        return offered.length === 0 ? 0 : titled(size) + below
     }
     function titled(size: real): real {
-        return Math.ceil(1.4 * size * wordWidths.plainLines(words["console-break"] ?? "", size, across - startOf(size) - edge))
+        return Math.ceil(1.4 * size * wordWidths.lines(words["console-break"] ?? "", size, across))
     }
     readonly property real below: Math.round(10 * Theme.unit)
-    // Whether the title of the break has one line beside its answers, on an upright page.
-    function isWhole(size: real): bool {
-        const widest = Math.max(0, ...offered.map(option => wordWidths.bold(option.label, size)))
-        return 1.02 * wordWidths.plain(words["console-break"] ?? "", size) + Theme.gap + offered.length * (widest + 60 * Theme.unit) <= across - startOf(size) - edge
-    }
-    // How high an answer is beside its title, how far from the next, and how many stand in a row: four have two rows in a
-    // column.
-    function answer(size: real): real {
-        return Math.max(64 * Theme.unit, 1.4 * size + 18 * Theme.unit)
-    }
-    readonly property real between: wide ? spacing : Math.round(10 * Theme.unit)
+    // How many answers stand in a row: four have two rows in a column.
     function besides(): int {
         return wide && offered.length > 3 ? 2 : Math.max(1, offered.length)
     }
     // How high they are at least if their words are written so large.
     function deep(size: real): real {
         const letters = lettered(size)
-        return Math.ceil(rowsOf(size) * (low(letters) + spacing) - spacing + beyond(letters) + groups * parting)
+        return Math.ceil(rowsOf(size) * (low(letters) + spacing) - spacing + beyond(letters))
     }
 
     // Whether the button of an action stands here.
@@ -107,7 +86,7 @@ Column {
         id: wordWidths
     }
 
-    spacing: Math.round(12 * Theme.unit)
+    spacing: space
     Accessible.role: Accessible.Grouping
     Accessible.name: words["console-actions"]
 
@@ -160,58 +139,34 @@ Column {
         drawing: "M8.5 8 H20 V21 H8.5 Z M5 16 H4 V3 H15.5 V4.5"
         onClicked: actions.panel.wish("backup", "")
     }
-    Item {
-        visible: actions.wide && pause.visible
-        width: actions.across
-        height: actions.parted - actions.spacing
-    }
-    Rectangle {
-        id: pause
-        readonly property real sign: 1.45 * actions.lettering
-        readonly property real room: actions.across - actions.start - actions.edge
-        // In one line, where that leaves the answers beside it the room.
-        readonly property real whole: Math.ceil(1.02 * wordWidths.plain(asked.text, actions.lettering))
-        readonly property real widest: Math.max(0, ...actions.offered.map(option => wordWidths.bold(option.label, actions.lettering)))
-        readonly property real beside: actions.isWhole(actions.lettering) ? whole : Math.ceil(0.62 * whole)
+    // The heading of the break begins where its answers do.
+    Column {
         visible: actions.offered.length > 0
         width: actions.across
-        height: actions.wide ? breaks.y + breaks.height : actions.tall + actions.beyond(actions.lettering)
-        radius: Theme.radius
-        // Beside its answers the title stands on a card, and above them it is their heading.
-        color: actions.wide ? "transparent" : Theme.white
-        border { color: Theme.edge; width: (actions.wide ? 0 : 2) * Theme.unit }
-        Drawing {
-            x: actions.edge + (pause.sign - width) / 2
-            y: asked.y + (asked.height - height) / 2
-            scale: pause.sign / 24
-            path: "M12 3.5 A8.5 8.5 0 1 1 11.99 3.5 M12 7.5 V12.3 L15.2 14.2"
-            ink: Theme.faintInk
-        }
-        Balanced {
-            id: asked
-            x: actions.start
-            y: actions.wide ? 0 : Math.floor((pause.height - height) / 2)
-            width: actions.wide ? pause.room : pause.beside
-            horizontalAlignment: Text.AlignLeft
-            lineHeight: actions.wide ? 1 : 0.9
+        spacing: actions.below
+        PlainText {
+            width: parent.width
+            height: actions.titled(actions.lettering)
+            verticalAlignment: Text.AlignVCenter
             text: breaks.title
-            font.pixelSize: actions.lettering
+            font { pixelSize: actions.lettering; bold: true }
             color: Theme.ink
+            wrapMode: Text.Wrap
         }
         PanelChoice {
             id: breaks
-            x: actions.wide ? 0 : actions.start + pause.beside + Theme.gap
-            y: actions.wide ? actions.beyond(actions.lettering) : Math.floor((pause.height - height) / 2)
-            width: actions.wide ? actions.across : actions.across - actions.edge - x
+            readonly property real widest: Math.max(0, ...actions.offered.map(option => wordWidths.bold(option.label, actions.lettering)))
+            width: actions.across
             action: "break"
             titled: false
             even: true
+            strong: true
             across: actions.besides()
-            between: actions.between
-            least: actions.wide ? actions.tall : actions.answer(actions.lettering)
+            between: Math.round(12 * Theme.unit)
+            least: actions.tall
             size: actions.lettering
             // A little smaller where that keeps them in their row.
-            lettering: Math.floor(actions.lettering * Math.min(1, (each - 20 * Theme.unit) / Math.max(1, pause.widest)))
+            lettering: Math.floor(actions.lettering * Math.min(1, (each - 20 * Theme.unit) / Math.max(1, widest)))
             ground: Theme.white
             title: actions.words["console-break"]
             options: actions.offered
@@ -219,12 +174,7 @@ Column {
             onPicked: value => actions.panel.wish("break", value)
         }
     }
-    Item {
-        visible: actions.underWay
-        width: actions.across
-        height: actions.parted - actions.spacing
-    }
-    // Last and apart: it takes a game from a visitor.
+    // Last: it takes a game from a visitor.
     Action {
         objectName: "action-end"
         visible: actions.underWay

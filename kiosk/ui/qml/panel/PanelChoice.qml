@@ -13,6 +13,8 @@ Column {
     property bool titled: true
     // Whether they take all of the width, in one row where their words fit.
     property bool even: false
+    // Whether all answers are as bold as the buttons around them.
+    property bool strong: false
     property real least: 68 * Theme.unit
     // How wide each answer is at least, however short its words.
     property real broad: 0
@@ -54,7 +56,7 @@ Column {
                 least: choice.least
                 ground: choice.ground
                 horizontalPadding: (choice.even ? 8 : 18) * Theme.unit
-                font.pixelSize: choice.lettering
+                font { pixelSize: choice.lettering; bold: choice.strong || solid }
                 width: choice.even && implicitWidth <= choice.each ? (index % choice.across === choice.across - 1 ? last : choice.each) : Math.min(Math.max(choice.broad, Math.ceil(implicitWidth)), choice.width)
                 Accessible.role: Accessible.RadioButton
                 Accessible.name: `${choice.title} ${words}`

@@ -9,18 +9,20 @@ Row {
 
     required property PanelScreen panel
     required property real size
+    // How much of that its words have: less below an alarm, which needs the room.
+    readonly property real share: panel.alarms.length > 0 ? 0.9 : 1
     // Without a target, and before the first game, there is nothing to tell of it.
     readonly property var shown: panel.today.tiles.filter(each => each.name !== "stage" && each.value !== "-")
-    readonly property real figure: (Theme.textSize <= 1.15 ? 2.4 : 2) * Theme.dense
+    readonly property real figure: (Theme.textSize > 1.15 ? 2 : share < 1 ? 2.4 : 2.7) * Theme.dense
     // Each has what it needs, and all of them the same of what is left.
     readonly property var widths: widthsOf(size, width)
 
     // At least a number and its title have one line; a long line below them has two.
     function least(tile: var, size: real): real {
-        return Math.ceil(1.02 * Math.max(wordWidths.bold(tile.value, figure), wordWidths.plain(tile.title, 0.9 * size)) + 4 * Theme.unit)
+        return Math.ceil(1.02 * Math.max(wordWidths.bold(tile.value, figure), wordWidths.plain(tile.title, share * size)) + 4 * Theme.unit)
     }
     function widthsOf(size: real, width: real): var {
-        const wishes = shown.map(tile => Math.max(least(tile, size), Math.ceil(1.02 * Math.min(12 * size, wordWidths.plain(tile.line, 0.9 * size)) + 4 * Theme.unit)))
+        const wishes = shown.map(tile => Math.max(least(tile, size), Math.ceil(1.02 * Math.min(12 * size, wordWidths.plain(tile.line, share * size)) + 4 * Theme.unit)))
         const wished = wishes.reduce((sum, each) => sum + each, 0), spare = width - (shown.length - 1) * spacing - wished
         // In line with the columns below them, where that is enough for each.
         const even = (width - (shown.length - 1) * spacing) / shown.length
@@ -32,8 +34,8 @@ Row {
     // How high it is in so much width, if its words are written so large.
     function deep(size: real, width: real): real {
         const line = each => Math.ceil(1.37 * each), widths = widthsOf(size, width)
-        return shown.length === 0 ? 0 : Math.ceil(line(figure) + Math.max(...shown.map((tile, at) => wordWidths.plainLines(tile.title, 0.9 * size, widths[at]) * line(0.9 * size)
-            + (tile.line === "" ? 0 : wordWidths.plainLines(tile.line, 0.9 * size, widths[at]) * line(0.9 * size)))))
+        return shown.length === 0 ? 0 : Math.ceil(line(figure) + Math.max(...shown.map((tile, at) => wordWidths.plainLines(tile.title, share * size, widths[at]) * line(share * size)
+            + (tile.line === "" ? 0 : wordWidths.plainLines(tile.line, share * size, widths[at]) * line(share * size)))))
     }
     WordWidths {
         id: wordWidths
@@ -50,8 +52,8 @@ Row {
             objectName: "today-" + modelData.name
             width: day.widths[index] ?? 0
             size: day.figure
-            lettering: 0.9 * day.size
-            lower: 0.9 * day.size
+            lettering: day.share * day.size
+            lower: day.share * day.size
             title: modelData.title
             value: modelData.value
             line: modelData.line

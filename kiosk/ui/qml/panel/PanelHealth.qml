@@ -15,7 +15,6 @@ PanelSection {
     readonly property int columns: Theme.textSize > 1.15 || lines.length < 2 ? 1 : 2
     readonly property int rows: Math.ceil(lines.length / columns)
     readonly property real gutter: Math.round(1.6 * Theme.gap)
-    readonly property real told: 0.9 * size
     readonly property real room: width - 2 * inset
 
     // How high it may be: what it has left is shared among its rows, as long as they still stand together.
@@ -27,13 +26,13 @@ PanelSection {
         return Math.floor((width - 2 * inset - (columns - 1) * gutter) / columns)
     }
     function naming(size: real): real {
-        return Math.min(0.55 * column(width), 1.02 * Math.max(0, ...lines.map(line => wordWidths.bold(line.name, 0.9 * size))) + 0.3 * size)
+        return Math.min(0.55 * column(width), 1.02 * Math.max(0, ...lines.map(line => wordWidths.bold(line.name, day.share * size))) + 0.3 * size)
     }
     // How high each row is where nothing is left.
     function row(at: int, size: real): real {
-        const room = column(width) - 1.25 * 0.9 * size - naming(size) - 2 * step
-        const each = lines.slice(at * columns, (at + 1) * columns).map(line => wordWidths.plainLines(line.message, 0.9 * size, room))
-        return Math.max(1, ...each) * Math.ceil(1.4 * 0.9 * size)
+        const room = column(width) - 1.25 * day.share * size - naming(size) - 2 * step
+        const each = lines.slice(at * columns, (at + 1) * columns).map(line => wordWidths.plainLines(line.message, day.share * size, room))
+        return Math.max(1, ...each) * Math.ceil(1.4 * day.share * size)
     }
     function bare(size: real): real {
         const numbers = day.deep(size, room)
@@ -102,7 +101,7 @@ PanelSection {
                 line: modelData
                 words: health.words
                 width: health.column(health.width)
-                size: health.told
+                size: day.share * health.size
                 named: health.naming(health.size)
             }
         }

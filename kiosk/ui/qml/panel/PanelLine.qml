@@ -34,7 +34,7 @@ Row {
         width: row.width - mark.width - name.width - 2 * row.spacing
         text: row.line.message
         font { pixelSize: row.size; bold: !row.line.is_ok }
-        color: row.line.is_ok ? Theme.faintInk : Theme.deepAmber
+        color: row.line.is_ok ? Theme.ink : Theme.deepAmber
         horizontalAlignment: Text.AlignLeft
         least: 0.2
     }

@@ -1,5 +1,5 @@
 // Everything that is to be done, in rows of one shape: what is the matter, what to do, and at the end the button that
-// does it or the command to type elsewhere.
+// does it, or one that shows the command to type elsewhere. What a button does here stands first.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -13,7 +13,11 @@ Rectangle {
     readonly property var matters: panel.health.matters
     // The actions that answer one of them: their buttons stand here, and not among the others.
     readonly property var answered: matters.map(matter => matter.action ?? "").filter(action => action !== "")
-    readonly property var rest: matters.filter(matter => !matter.action)
+    readonly property var rest: matters.filter(matter => !isAnswered(matter))
+    readonly property var typing: matters.filter(matter => !matter.action && matter.command)
+    readonly property var ordered: [...matters.filter(matter => matter.action), ...rest, ...typing]
+    // The commands that are shown, until their button is pressed again.
+    property list<string> opened: []
     // The bar at its edge and the marks have the colours that warn. Nothing else has: the state is what is seen first.
     readonly property real bar: 14 * Theme.unit
     readonly property real inset: Math.round(1.4 * Theme.gap)
@@ -22,8 +26,9 @@ Rectangle {
     readonly property real above: Math.round(0.5 * Theme.gap)
     readonly property real between: Math.round(0.42 * Theme.gap)
     readonly property real answer: 0.94 * size
-    // On an upright page a command has no sign and the least letters, so that what is the matter has larger ones.
-    readonly property bool signed: !Theme.upright
+    readonly property real padding: 16 * Theme.unit
+    readonly property string how: panel.words["console-how"] ?? ""
+    // On an upright page a command has the least letters, so that what is the matter has larger ones.
     readonly property real typed: typedOf(size)
     readonly property real least: (Theme.upright ? 80 : 72) * Theme.unit
     // All answers are as wide as the widest, and stand at the end of their rows, or all of them below.
@@ -31,9 +36,13 @@ Rectangle {
     readonly property bool aside: asides(size)
     readonly property var signs: ({
         backup: "M8.5 8 H20 V21 H8.5 Z M5 16 H4 V3 H15.5 V4.5",
+        how: "M5 6.5 L10.5 12 L5 17.5 M13 18 H20",
         mute: "M3 9.5 H7 L12.5 5 V19 L7 14.5 H3 Z M16 9 A4.5 4.5 0 0 1 16 15 M18.8 6.2 A8.5 8.5 0 0 1 18.8 17.8"
     })
 
+    function turn(command: string) {
+        opened = opened.includes(command) ? opened.filter(each => each !== command) : [...opened, command]
+    }
     function said(matter: var): string {
         return `${matter.name}: ${matter.message}`
     }
@@ -41,11 +50,12 @@ Rectangle {
         return Boolean(matter.action || matter.command)
     }
     function typedOf(size: real): real {
-        return Math.max((signed ? 27 : 30) * Theme.unit * Math.max(1, Theme.textSize), signed ? size : 0)
+        return Math.max((Theme.upright ? 30 : 27) * Theme.unit * Math.max(1, Theme.textSize), Theme.upright ? 0 : 0.94 * size)
     }
     function answeringOf(size: real): real {
-        const wide = matter => matter.action ? wordWidths.bold(matter.button, size) + 2.05 * size + (Theme.upright ? 32 : 44) * Theme.unit
-            : matter.command ? typeWidths.advanceWidth(matter.command) * 0.01 * typedOf(size) + (signed ? 1.5 * size : 0) + 6 * Theme.unit : 0
+        const pressed = words => wordWidths.bold(words, size) + 2.05 * size + (Theme.upright ? 32 : 44) * Theme.unit
+        const wide = matter => matter.action ? pressed(matter.button)
+            : matter.command ? Math.max(pressed(how), typeWidths.advanceWidth(matter.command) * 0.01 * typedOf(size) + 2 * padding + 6 * Theme.unit) : 0
         return Math.ceil(Math.max(...matters.map(wide)) * 1.01)
     }
     // What the words of a matter have beside its answer.
@@ -87,7 +97,9 @@ Rectangle {
     component Matter: Item {
         id: row
         property var matter: null
-        property bool first: false
+        readonly property bool first: matter !== null && matter.name === notice.ordered[0]?.name
+        readonly property string command: matter?.command ?? ""
+        readonly property bool open: notice.opened.includes(command)
         readonly property string action: matter?.action ?? ""
         readonly property bool answered: matter !== null && notice.isAnswered(matter)
         readonly property real foot: answered ? reply.height : 0
@@ -134,7 +146,7 @@ Rectangle {
             x: notice.aside ? row.width - width : notice.mark
             y: notice.aside ? Math.floor((row.height - height) / 2) : words.y + words.height + 6 * Theme.unit
             width: Math.min(notice.answering, row.width - (notice.aside ? 0 : notice.mark))
-            height: Math.max(button.visible ? button.height : 0, notice.least)
+            height: Math.max(button.visible ? button.height : 0, asking.visible ? asking.height : 0, notice.least)
             PanelButton {
                 id: button
                 objectName: `action-${row.action}`
@@ -149,27 +161,37 @@ Rectangle {
                 font { pixelSize: notice.size; bold: true }
                 onClicked: notice.panel.wish(row.action, "")
             }
-            // What is to be typed in a terminal: plain letters, for nothing here can be pressed.
-            Item {
+            // What is to be typed in a terminal is asked for: nothing of it can be done here.
+            PanelButton {
+                id: asking
+                objectName: `how-${row.command}`
                 visible: row.answered && row.action === ""
-                anchors.fill: parent
-                Drawing {
-                    visible: notice.signed
-                    x: (1.2 * notice.size - width) / 2
-                    y: (parent.height - height) / 2
-                    scale: 1.15 * notice.size / 24
-                    path: "M5 6.5 L10.5 12 L5 17.5 M13 18 H20"
-                    ink: Theme.faintInk
+                width: reply.width
+                height: Math.max(least, implicitHeight, typed.height + 2 * verticalPadding)
+                least: notice.least
+                ground: Theme.white
+                horizontalPadding: notice.padding
+                words: row.open ? "" : notice.how
+                drawing: row.open ? "" : notice.signs.how
+                font { pixelSize: notice.size; bold: true }
+                Accessible.name: row.matter === null ? "" : row.open ? row.command : `${notice.how} ${notice.said(row.matter)}`
+                onClicked: {
+                    notice.turn(row.command)
+                    if (row.open)
+                        asking.Accessible.announce(row.command, Accessible.Polite)
                 }
-                PlainText {
-                    x: (notice.signed ? 1.5 * notice.size : 0)
-                    y: (parent.height - height) / 2
-                    width: parent.width - x
-                    text: row.matter?.command ?? ""
-                    font { family: "monospace"; pixelSize: notice.typed }
-                    color: Theme.ink
-                    wrapMode: Text.Wrap
-                }
+            }
+            PlainText {
+                id: typed
+                visible: asking.visible && row.open
+                x: notice.padding
+                y: (parent.height - height) / 2
+                width: parent.width - 2 * x
+                text: row.command
+                font { family: "monospace"; pixelSize: notice.typed }
+                color: Theme.ink
+                wrapMode: Text.Wrap
+                Accessible.ignored: true
             }
         }
     }
@@ -195,22 +217,26 @@ Rectangle {
         // What has a button is not made anew with the others: the keyboard, or a finger that lies on it, would lose it.
         Matter {
             id: mute
-            first: true
             matter: notice.matters.find(matter => matter.action === "mute") ?? null
+        }
+        Matter {
+            id: backup
+            matter: notice.matters.find(matter => matter.action === "backup") ?? null
         }
         Repeater {
             model: notice.rest
             delegate: Matter {
                 required property var modelData
-                required property int index
-                first: index === 0 && mute.matter === null
                 matter: modelData
             }
         }
-        Matter {
-            id: backup
-            first: notice.matters.length === 1
-            matter: notice.matters.find(matter => matter.action === "backup") ?? null
+        // There are three such matters; a row that nothing is the matter with takes no room.
+        Repeater {
+            model: Math.max(3, notice.typing.length)
+            delegate: Matter {
+                required property int index
+                matter: notice.typing[index] ?? null
+            }
         }
     }
 }

@@ -42,7 +42,7 @@ Item {
             text: tile.line
             horizontalAlignment: Text.AlignLeft
             font.pixelSize: tile.lower
-            color: Theme.faintInk
+            color: Theme.ink
         }
     }
 }
