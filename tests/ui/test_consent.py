@@ -229,6 +229,26 @@ def test_each_answer_says_what_follows_and_the_heading_which_boxes_are_to_be_tic
 
 
 @pytest.mark.usefixtures("done")
+def test_the_answer_that_needs_boxes_shows_them_until_all_are_ticked(booth: Booth) -> None:
+    booth.app.screens.consent.show(SHORT)
+    booth.settle()
+    for ticks in (frozenset[str](), frozenset({"share"}), REQUIRED - {"store"}, REQUIRED):
+        booth.app.screens.consent.show_ticks(ticks)
+        lay_out(booth.app.window)
+        boxes = boxes_in(booth.item("agree"))
+        filled = [box.property("color").alpha() > 0 for box in boxes]
+        done = len(ticks & REQUIRED)
+        assert filled == ([] if done == len(REQUIRED) else [at < done for at in range(len(REQUIRED))])
+        assert all(place(box).right() < painted(under(booth, "agree")).left() for box in boxes)
+        assert boxes_in(booth.item("decline")) == []
+
+
+def boxes_in(button: QQuickItem) -> list[QQuickItem]:
+    """Return the boxes that are drawn in an answer."""
+    return [box for row in button.childItems() for box in row.childItems() if box.objectName() == "box"]
+
+
+@pytest.mark.usefixtures("done")
 def test_what_is_to_be_ticked_has_a_strong_edge_until_it_is(booth: Booth) -> None:
     booth.app.screens.consent.show(SHORT)
     for ticks in (frozenset({"share"}), REQUIRED - {"store"}, REQUIRED, frozenset[str]()):

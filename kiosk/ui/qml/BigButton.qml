@@ -25,6 +25,12 @@ Button {
     property string under: ""
     property real underSize: Theme.small
     property int underLines: 1
+    // Before that line, if it is one: how many boxes are to be ticked first, and how many of them are.
+    property int boxes: 0
+    property int ticked: 0
+    readonly property real boxSide: Math.round(0.8 * underSize)
+    readonly property real boxesWide: boxes * (boxSide + 8 * Theme.unit) + 6 * Theme.unit
+    readonly property bool boxed: boxes > 0 && underLines === 1 && underMeasure.advanceWidth + boxesWide <= width - 2 * Theme.gap
     readonly property real underTall: under === "" ? 0 : Math.ceil(1.37 * underLines * underSize)
     // A sign that tells it from its neighbour at a glance; none without. It stands above its words, or before them.
     property string sign: ""
@@ -75,6 +81,11 @@ Button {
         text: button.words
     }
     TextMetrics {
+        id: underMeasure
+        font.pixelSize: button.underSize
+        text: button.under
+    }
+    TextMetrics {
         id: noted
         font.pixelSize: Theme.size(32)
         text: button.note
@@ -118,9 +129,28 @@ Button {
         color: button.waits ? Theme.faintInk : button.quiet ? Theme.sea : Theme.white
         Accessible.ignored: true
     }
+    Row {
+        x: Theme.across((parent.width - button.boxesWide - underMeasure.advanceWidth) / 2, width, parent.width)
+        y: underLine.y + (underLine.height - height) / 2
+        visible: button.boxed
+        spacing: 8 * Theme.unit
+        Repeater {
+            model: button.boxed ? button.boxes : 0
+            Rectangle {
+                required property int index
+                objectName: "box"
+                width: button.boxSide
+                height: width
+                radius: 0.2 * width
+                color: index < button.ticked ? Theme.white : "transparent"
+                border { color: Theme.white; width: 3 * Theme.unit }
+            }
+        }
+    }
     Text {
+        id: underLine
         objectName: "under"
-        x: (parent.width - width) / 2
+        x: (parent.width - width) / 2 + (button.boxed ? Theme.ahead * button.boxesWide / 2 : 0)
         y: parent.height - button.verticalPadding - height
         width: parent.width - 2 * Theme.gap
         height: button.underTall

@@ -88,6 +88,8 @@ PageFrame {
     way.even: true
     // Both answers look the same at all times. What one of them still needs is said within it.
     way.follows: consent.toGoLine || way.later
+    way.boxes: consent.toGo === "" ? 0 : needed
+    way.ticked: consent.purposes.filter(purpose => purpose.required && consent.ticks.includes(purpose.id)).length
     way.later: words["consent-agree-line"]
     way.otherFollows: words["consent-decline-line"]
     way.reason: way.follows

@@ -28,6 +28,9 @@ FocusScope {
     property string otherFollows: ""
     // What the first of these lines says later, if it changes: letters that fit both keep their size.
     property string later: ""
+    // How many boxes are to be ticked before the first of them, and how many of these are: drawn before its line.
+    property int boxes: 0
+    property int ticked: 0
     readonly property var lines: [follows, otherFollows, later]
     readonly property bool lined: follows !== "" && otherFollows !== ""
     // The same letters for both, as large as leaves each in one line.
@@ -142,6 +145,8 @@ FocusScope {
         under: ways.lined ? ways.follows : ""
         underSize: ways.lineSize
         underLines: ways.lineCount
+        boxes: ways.boxes
+        ticked: ways.ticked
         verticalPadding: ways.lined ? no.verticalPadding : (tall - Math.ceil(line)) / 2
         waits: ways.waits
         note: ways.note
