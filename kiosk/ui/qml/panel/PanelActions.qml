@@ -9,8 +9,9 @@ Column {
 
     required property PanelScreen panel
     required property bool wide
-    // The actions whose buttons stand elsewhere, as they answer what is not well.
+    // The actions whose buttons stand elsewhere, as they answer what is not well, and what all of them look like.
     required property var answered
+    required property var signs
     // How large their words are where they fit, and how high the list is at least.
     required property real size
     property real least: 0
@@ -90,11 +91,13 @@ Column {
     Accessible.role: Accessible.Grouping
     Accessible.name: words["console-actions"]
 
-    component Action: PanelRow {
+    component Action: PanelButton {
         least: actions.tall
         width: actions.across
         horizontalPadding: actions.edge
-        font.pixelSize: actions.lettering
+        ground: Theme.white
+        ringInPlace: true
+        font { pixelSize: actions.lettering; bold: true }
     }
 
     Grid {
@@ -125,7 +128,7 @@ Column {
             objectName: "action-mute"
             visible: actions.has("mute")
             words: actions.choices.muted ? actions.words["console-heard"] : actions.words["console-mute"]
-            drawing: "M3 9.5 H7 L12.5 5 V19 L7 14.5 H3 Z " + (actions.choices.muted ? "M16 9 A4.5 4.5 0 0 1 16 15 M18.8 6.2 A8.5 8.5 0 0 1 18.8 17.8" : "M16.5 9.5 L21.5 14.5 M21.5 9.5 L16.5 14.5")
+            drawing: actions.signs[actions.choices.muted ? "mute" : "silence"]
             onClicked: actions.panel.wish("mute", "")
         }
     }
@@ -136,7 +139,7 @@ Column {
         visible: actions.has("backup")
         enabled: actions.choices.backup === ""
         words: actions.words["console-backup"] + (enabled ? "" : ": " + actions.choices.backup)
-        drawing: "M8.5 8 H20 V21 H8.5 Z M5 16 H4 V3 H15.5 V4.5"
+        drawing: actions.signs.backup
         onClicked: actions.panel.wish("backup", "")
     }
     // The heading of the break begins where its answers do.

@@ -26,9 +26,7 @@ Button {
     property int alignment: Text.AlignHCenter
     // The lines of a small drawing before its words, on a square of 24; none without.
     property string drawing: ""
-    property real sign: drawing === "" ? 0 : (stacked ? 1.9 : 1.45) * font.pixelSize
-    // Whether the drawing stands above its words, which then wrap as they need.
-    property bool stacked: false
+    property real sign: drawing === "" ? 0 : 1.45 * font.pixelSize
     // Whether drawing and words stand in its middle, beside each other.
     property bool centred: false
     property color front: solid ? Theme.white : enabled ? tone : Theme.faintInk
@@ -55,11 +53,10 @@ Button {
 
     contentItem: Item {
         id: parts
-        readonly property real before: button.sign > 0 && !button.stacked ? button.sign + 0.6 * button.font.pixelSize : 0
-        readonly property real above: button.stacked ? button.sign + 0.3 * button.font.pixelSize : 0
-        readonly property real start: button.centred && !button.stacked ? Math.max(0, (width - implicitWidth) / 2) : 0
+        readonly property real before: button.sign > 0 ? button.sign + 0.6 * button.font.pixelSize : 0
+        readonly property real start: button.centred ? Math.max(0, (width - implicitWidth) / 2) : 0
         implicitWidth: before + Math.ceil(natural.advanceWidth) + 1
-        implicitHeight: button.stacked ? above + letters.implicitHeight : Math.max(button.sign, letters.implicitHeight)
+        implicitHeight: Math.max(button.sign, letters.implicitHeight)
         TextMetrics {
             id: natural
             text: button.words
@@ -67,8 +64,8 @@ Button {
         }
         Drawing {
             visible: button.drawing !== ""
-            x: parts.start + ((button.stacked ? parts.width : button.sign) - width) / 2
-            y: (button.stacked ? 0.3 * parts.height : 0.5 * parts.height) - height / 2
+            x: parts.start + (button.sign - width) / 2
+            y: (parts.height - height) / 2
             scale: button.sign / 24
             path: button.drawing
             ink: button.front
@@ -77,12 +74,12 @@ Button {
             id: letters
             x: parts.start + parts.before
             // Level with those of its neighbours, however many lines they have.
-            y: (button.stacked ? 0.72 * parts.height : 0.5 * parts.height) - height / 2
+            y: (parts.height - height) / 2
             width: parts.width - parts.before - parts.start
             text: button.words
             font: button.font
             color: button.front
-            horizontalAlignment: button.drawing === "" || button.stacked ? button.alignment : Text.AlignLeft
+            horizontalAlignment: button.drawing === "" ? button.alignment : Text.AlignLeft
             // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
             wrapMode: width < Math.floor(natural.advanceWidth) ? Text.Wrap : Text.NoWrap
             Accessible.ignored: true

@@ -37,7 +37,8 @@ Rectangle {
     readonly property var signs: ({
         backup: "M8.5 8 H20 V21 H8.5 Z M5 16 H4 V3 H15.5 V4.5",
         how: "M5 6.5 L10.5 12 L5 17.5 M13 18 H20",
-        mute: "M3 9.5 H7 L12.5 5 V19 L7 14.5 H3 Z M16 9 A4.5 4.5 0 0 1 16 15 M18.8 6.2 A8.5 8.5 0 0 1 18.8 17.8"
+        mute: "M3 9.5 H7 L12.5 5 V19 L7 14.5 H3 Z M16 9 A4.5 4.5 0 0 1 16 15 M18.8 6.2 A8.5 8.5 0 0 1 18.8 17.8",
+        silence: "M3 9.5 H7 L12.5 5 V19 L7 14.5 H3 Z M16.5 9.5 L21.5 14.5 M21.5 9.5 L16.5 14.5"
     })
 
     function turn(command: string) {

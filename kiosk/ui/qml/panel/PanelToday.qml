@@ -99,6 +99,7 @@ Item {
         PanelActions {
             id: actions
             answered: notice.answered
+            signs: notice.signs
             space: today.space
             width: parent.width
             panel: today.panel
