@@ -84,6 +84,7 @@ console-supervisor = Supervisor
 console-supervisor-there = running
 console-supervisor-none = not running
 console-supervisor-remedy = Start the kiosk with one
+console-supervisor-how = How to start one
 console-remote = From afar
 console-remote-there = the status is published
 console-remote-not = no connection: { $why }
@@ -107,6 +108,7 @@ console-voice-quiet = silent on purpose
 console-voice-quiet-remedy = Visitors can only read what the helper says
 console-voice-changed = another voice pack than in earlier sessions
 console-voice-changed-remedy = See in which sessions
+console-voice-changed-how = How to list them
 console-disk = Disk
 console-disk-free = { $free } free
 console-disk-warn = only { $free } free
@@ -147,6 +149,7 @@ console-pin-line-name = PIN
 console-pin-set = is asked for
 console-pin-none = not set
 console-pin-remedy = Set one before you open
+console-pin-how = How to set a PIN
 console-screen = Screen
 
 ## Counts
@@ -243,7 +246,6 @@ console-next = Next visitor
 console-resume = Go on with a session that was cut off
 console-resume-one = { $participant } · { $when } · { $stage }
 console-backup = Make a copy
-console-how = How
 console-quit = Leave the kiosk
 
 ## Alarms

@@ -84,6 +84,7 @@ console-supervisor = Supervisor
 console-supervisor-there = activo
 console-supervisor-none = no hay
 console-supervisor-remedy = Inicia el quiosco con uno
+console-supervisor-how = Cómo iniciarlo
 console-remote = A distancia
 console-remote-there = el estado se publica
 console-remote-not = sin conexión: { $why }
@@ -107,6 +108,7 @@ console-voice-quiet = en silencio a propósito
 console-voice-quiet-remedy = Solo se puede leer lo que dice el ayudante
 console-voice-changed = otro paquete de voz que en sesiones anteriores
 console-voice-changed-remedy = Mira en qué sesiones
+console-voice-changed-how = Cómo verlas
 console-disk = Disco
 console-disk-free = { $free } libres
 console-disk-warn = solo { $free } libres
@@ -147,6 +149,7 @@ console-pin-line-name = PIN
 console-pin-set = se pide
 console-pin-none = no hay
 console-pin-remedy = Crea uno antes de abrir
+console-pin-how = Cómo crearlo
 console-screen = Pantalla
 
 ## Counts
@@ -243,7 +246,6 @@ console-next = Siguiente persona
 console-resume = Reanudar una sesión cortada
 console-resume-one = { $participant } · { $when } · { $stage }
 console-backup = Hacer una copia
-console-how = Cómo
 console-quit = Salir del quiosco
 
 ## Alarmas

@@ -84,6 +84,7 @@ console-supervisor = Supervisore
 console-supervisor-there = attivo
 console-supervisor-none = non c’è
 console-supervisor-remedy = Avvia il chiosco con uno
+console-supervisor-how = Come avviarlo
 console-remote = A distanza
 console-remote-there = lo stato viene pubblicato
 console-remote-not = nessuna connessione: { $why }
@@ -107,6 +108,7 @@ console-voice-quiet = in silenzio di proposito
 console-voice-quiet-remedy = Si può solo leggere ciò che dice l’aiutante
 console-voice-changed = pacchetto vocale diverso da quello delle sessioni precedenti
 console-voice-changed-remedy = Vedi in quali sedute
+console-voice-changed-how = Come vederle
 console-disk = Disco
 console-disk-free = { $free } liberi
 console-disk-warn = solo { $free } liberi
@@ -147,6 +149,7 @@ console-pin-line-name = PIN
 console-pin-set = viene chiesto
 console-pin-none = non c’è
 console-pin-remedy = Impostane uno prima di aprire
+console-pin-how = Come impostarlo
 console-screen = Schermo
 
 ## Counts
@@ -243,7 +246,6 @@ console-next = Prossima persona
 console-resume = Riprendi una seduta interrotta
 console-resume-one = { $participant } · { $when } · { $stage }
 console-backup = Fai una copia
-console-how = Come fare
 console-quit = Esci dal chiosco
 
 ## Allarmi

@@ -37,7 +37,7 @@ class HealthLine:
     action: str = ""
     """The action of the panel that does it; empty if it is done elsewhere."""
     button: str = ""
-    """What the button of that action says."""
+    """What the button says that does that action, or shows that command."""
     is_used: bool = True
     """False for what is not set up, or off on purpose: it is no fault, but nothing is in order there either."""
     is_due: bool = False
@@ -102,7 +102,6 @@ class HealthInputs:
 
 def health_lines(state: HealthInputs, catalogue: Catalogue) -> tuple[HealthLine, ...]:
     """Return what the first page tells, in the order in which a person looks."""
-    translate = catalogue.text
     return (
         _robot(state, catalogue),
         _voice(state, catalogue),
@@ -110,26 +109,37 @@ def health_lines(state: HealthInputs, catalogue: Catalogue) -> tuple[HealthLine,
         _database(state, catalogue),
         _clock(state.clocks, catalogue),
         # Before the supervisor, which starts no study without a PIN.
-        _line_of_what_is_needed(
-            translate("console-pin-line-name"),
-            translate("console-pin-set") if state.has_pin else "",
-            translate("console-pin-none"),
-            translate("console-pin-remedy"),
-            "recollect study set-pin",
-        ),
-        _line_of_what_is_needed(
-            translate("console-supervisor"),
-            translate("console-supervisor-there") if state.supervised else "",
-            translate("console-supervisor-none"),
-            translate("console-supervisor-remedy"),
-            "recollect run --supervise",
-        ),
+        _pin(state, catalogue),
+        _supervisor(state, catalogue),
     )
 
 
-def _line_of_what_is_needed(name: str, there: str, missing: str, remedy: str, command: str) -> HealthLine:
-    """Say what a part is like that is ``there``, or that it is missing and what to do."""
-    return HealthLine(name, there) if there else HealthLine(name, missing, is_ok=False, remedy=remedy, command=command)
+def _pin(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
+    name = catalogue.text("console-pin-line-name")
+    if state.has_pin:
+        return HealthLine(name, catalogue.text("console-pin-set"))
+    return HealthLine(
+        name,
+        catalogue.text("console-pin-none"),
+        is_ok=False,
+        remedy=catalogue.text("console-pin-remedy"),
+        command="recollect study set-pin",
+        button=catalogue.text("console-pin-how"),
+    )
+
+
+def _supervisor(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
+    name = catalogue.text("console-supervisor")
+    if state.supervised:
+        return HealthLine(name, catalogue.text("console-supervisor-there"))
+    return HealthLine(
+        name,
+        catalogue.text("console-supervisor-none"),
+        is_ok=False,
+        remedy=catalogue.text("console-supervisor-remedy"),
+        command="recollect run --supervise",
+        button=catalogue.text("console-supervisor-how"),
+    )
 
 
 def booth_lines(state: HealthInputs, study: StudyConfig, catalogue: Catalogue) -> tuple[HealthLine, ...]:
@@ -186,7 +196,8 @@ def _voice(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
     if state.voice.is_ok and state.pack_changed:
         remedy = catalogue.text("console-voice-changed-remedy")
         changed = catalogue.text("console-voice-changed")
-        return HealthLine(name, changed, is_ok=False, remedy=remedy, command="recollect verify")
+        button = catalogue.text("console-voice-changed-how")
+        return HealthLine(name, changed, is_ok=False, remedy=remedy, command="recollect verify", button=button)
     remedy = "" if state.voice.is_ok else catalogue.text("console-voice-remedy")
     return HealthLine(name, state.voice.message, state.voice.is_ok, remedy=remedy, is_used=state.voice.is_used)
 

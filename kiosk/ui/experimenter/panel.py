@@ -353,7 +353,6 @@ WORDS = (
     "console-next",
     "console-resume",
     "console-backup",
-    "console-how",
     "console-quit",
     "console-keys",
 )

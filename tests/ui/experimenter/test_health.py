@@ -146,6 +146,16 @@ def test_what_is_missing_comes_with_what_to_do_about_it(
     assert not well.remedy + well.command
 
 
+@pytest.mark.parametrize("language", CATALOGUES)
+def test_each_command_has_a_button_that_says_what_it_shows(language: str) -> None:
+    states = (replace(WELL, has_pin=False), replace(WELL, supervised=False), replace(WELL, pack_changed=True))
+    lines = [line for state in states for line in health_lines(state, CATALOGUES[language]) if line.command]
+    assert [line.button for line in lines] == [
+        CATALOGUES[language].text(f"console-{name}-how") for name in ("pin", "supervisor", "voice-changed")
+    ]
+    assert len({line.button for line in lines}) == len(lines)
+
+
 def test_the_pin_is_asked_for_before_the_supervisor_that_needs_it() -> None:
     names = list(told(replace(WELL, has_pin=False, supervised=False)))
     assert names.index("PIN") < names.index("Supervisor")

@@ -11,7 +11,7 @@ from itertools import pairwise, product
 from typing import Any
 
 import pytest
-from PySide6.QtCore import QCoreApplication, QPointF, Qt
+from PySide6.QtCore import QCoreApplication, QPointF, QRectF, Qt
 from PySide6.QtGui import QAccessible, QFont, QFontMetricsF, QGuiApplication
 from PySide6.QtQml import QQmlProperty
 from PySide6.QtQuick import QQuickItem
@@ -28,7 +28,7 @@ from kiosk.ui.simulated_visitor import find_item, lay_out
 from kiosk.ui.window import Window
 from tests.samples import CATALOGUES
 from tests.ui.headless import free, open_window
-from tests.ui.looking import background, items, lies_in, of_kind, place, texts
+from tests.ui.looking import background, items, lies_in, of_kind, painted, place, texts
 
 WIDE, UPRIGHT = (1920, 1080), (1080, 1920)
 ROUNDED = 3
@@ -98,6 +98,7 @@ def busy_day(language: str) -> dict[str, Any]:
         is_ok=False,
         remedy=told("console-pin-remedy"),
         command="recollect study set-pin",
+        button=told("console-pin-how"),
     )
     supervisor = HealthLine(
         told("console-supervisor"),
@@ -105,6 +106,7 @@ def busy_day(language: str) -> dict[str, Any]:
         is_ok=False,
         remedy=told("console-supervisor-remedy"),
         command="recollect run --supervise",
+        button=told("console-supervisor-how"),
     )
     checks = (
         HealthLine(told("console-robot"), told("console-robot-absent"), is_used=False),
@@ -482,28 +484,30 @@ def test_the_button_that_answers_a_matter_stands_there_alone_and_all_answers_hav
     assert [lies_in(item, "PanelNotice") for item in found] == [True]
     assert found[0].height() >= 72 * unit_of(size)
     (notice,) = of_kind(window.shown.contentItem(), "PanelNotice")
-    closed = [(round(item.width()), round(item.height())) for item in asking(window)]
-    turn_answers(window)
-    commands = [text for text in texts(notice) if words_of(text).startswith("recollect ")]
-    answers = [found[0], *(text.parentItem() for text in commands)]
+    answers = [found[0], *asking(window)]
     assert len(answers) == 3
-    # What shows a command is as large as the button that does something here, and stays so.
-    assert {*closed, *((round(item.width()), round(item.height())) for item in asking(window))} == {
-        (round(found[0].width()), round(found[0].height()))
-    }
-    places = [(round(item.mapToScene(QPointF()).x()), round(item.width()), round(item.height())) for item in answers]
-    assert len(set(places)) == 1
+    shapes = {(round(item.mapToScene(QPointF()).x()), round(item.width()), round(item.height())) for item in answers}
+    assert len(shapes) == 1
     tops = [level(item) for item in answers]
     assert tops == sorted(tops), "what is done here stands first"
-    # Nothing is cut off, wrapped or covered.
-    assert [words_of(text) for text in commands if text.property("lineCount") > 1] == []
-    for text in texts(notice):
-        for answer in answers:
-            if text.parentItem() is not answer and not lies_in(text, "PanelButton"):
-                across = (
-                    text.mapToScene(QPointF(text.property("contentWidth"), 0)).x() <= answer.mapToScene(QPointF()).x()
-                )
-                assert across or level(text) + text.height() <= level(answer) or level(text) >= level(answer)
+    # They end where the rows do, and are as wide as the longest words ask for.
+    end = notice.mapToScene(QPointF(notice.width() - notice.property("inset"), 0)).x()
+    assert found[0].mapToScene(QPointF(found[0].width(), 0)).x() == pytest.approx(end, abs=1)
+    needed = max(item.property("implicitWidth") for item in answers)
+    assert needed <= found[0].width() <= 1.04 * needed
+    # Nothing is cut off, wrapped or covered, with the commands or without them.
+    for _ in range(2):
+        for text in texts(notice):
+            for answer in answers:
+                if not lies_in(text, "PanelButton"):
+                    across = text.mapToScene(QPointF(text.property("contentWidth"), 0)).x()
+                    clear = level(text) + text.height() <= level(answer) or level(text) >= level(answer)
+                    assert clear or across <= answer.mapToScene(QPointF()).x()
+        turn_answers(window)
+        commands = [text for text in texts(notice) if words_of(text).startswith("recollect ")]
+        assert len(commands) in {0, 2}
+        assert [words_of(text) for text in commands if text.property("lineCount") > 1] == []
+        assert [level(item) for item in answers] == pytest.approx(tops, abs=1), "what is shown moves nothing"
 
 
 @pytest.mark.parametrize("language", sorted(CATALOGUES))
@@ -511,18 +515,20 @@ def test_a_command_is_shown_and_said_when_it_is_asked_for_until_its_button_is_pr
     window: Window, language: str
 ) -> None:
     show(window, language, WIDE)
-    how, (pin, supervisor) = CATALOGUES[language].text("console-how"), asking(window)
-    command = "recollect study set-pin"
+    told, (pin, supervisor) = CATALOGUES[language].text, asking(window)
+    how, other, remedy = told("console-pin-how"), told("console-supervisor-how"), told("console-pin-remedy")
+    matter, command = f"PIN: {told('console-pin-none')}", "recollect study set-pin"
     for shown in (False, True, False):
         seen = [words_of(text) for text in texts(pin.parentItem()) if text.isVisible() and words_of(text)]
-        assert seen == [command if shown else how]
+        assert sorted(seen) == sorted([matter, command if shown else remedy, how])
         said = QAccessible.queryAccessibleInterface(pin).text(QAccessible.Text.Name)
-        assert said == (command if shown else f"{how} PIN: {CATALOGUES[language].text('console-pin-none')}")
-        assert [words_of(text) for text in texts(supervisor) if words_of(text)] == [how]
+        assert said == (command if shown else f"{how} {matter}")
+        assert [words_of(text) for text in texts(supervisor) if words_of(text)] == [other]
         press(pin)
     # It is hidden for the one who opens the panel next.
     show(window, language, WIDE)
-    assert {words_of(text) for item in asking(window) for text in texts(item) if words_of(text)} == {how}
+    (notice,) = of_kind(window.shown.contentItem(), "PanelNotice")
+    assert command not in {words_of(text) for text in texts(notice)}
 
 
 def test_a_command_stays_shown_and_held_by_the_keyboard_when_something_else_goes_wrong(window: Window) -> None:
@@ -548,29 +554,58 @@ def test_a_command_to_type_elsewhere_is_as_dark_as_what_to_do_and_in_letters_of_
 ) -> None:
     show(window, "en", size)
     (notice,) = of_kind(window.shown.contentItem(), "PanelNotice")
-    turn_answers(window)
+    press(asking(window)[0])
+    lay_out(window.shown)
     shown = {words_of(text): text for text in texts(notice)}
-    remedy, command = shown["Set one before you open"], shown["recollect study set-pin"]
+    remedy, command = shown["Start the kiosk with one"], shown["recollect study set-pin"]
     assert command.property("color") == remedy.property("color")
     letters = QFontMetricsF(command.property("font"))
     assert letters.horizontalAdvance("i") == letters.horizontalAdvance("m")
     picture = window.shown.grabWindow()
-    assert background(picture, place(command.parentItem())) == background(picture, place(remedy))
+    assert background(picture, place(command)) == background(picture, place(remedy))
 
 
 @pytest.mark.parametrize("size", [WIDE, UPRIGHT])
-def test_all_that_can_be_pressed_has_one_outline_and_the_switch_says_its_name_alone(
-    window: Window, size: tuple[int, int]
-) -> None:
+def test_what_is_to_be_done_has_an_outline_and_what_can_be_done_has_none(window: Window, size: tuple[int, int]) -> None:
     show(window, "en", size, health=with_the_copy("en"), choices=busy_day("en")["choices"])
     shown = {item.objectName(): item for item in items(window.shown.contentItem()) if item.isVisible()}
-    outlines = [
-        (ground.property("radius"), QQmlProperty.read(ground, "border.color").name())
-        for ground in (shown[name].property("background") for name in ("action-backup", "action-again", "action-mute"))
-    ]
-    assert len(set(outlines)) == 1
-    switch = shown["action-pause"]
+
+    def edge(name: str) -> tuple[float, str]:
+        ground = shown[name].property("background")
+        return QQmlProperty.read(ground, "border.width"), QQmlProperty.read(ground, "border.color").name()
+
+    answers = {edge(name) for name in ("action-backup", *(item.objectName() for item in asking(window)))}
+    assert len(answers) == 1
+    assert min(answers)[0] > 0
+    assert {edge(name)[0] for name in ("action-again", "action-mute", "break-5")} == {0}
+    assert edge("action-end")[0] == min(answers)[0], "what ends a session weighs no more than what is to be done"
+
+
+@pytest.mark.parametrize("size", [WIDE, UPRIGHT])
+def test_the_switch_says_its_name_alone(window: Window, size: tuple[int, int]) -> None:
+    show(window, "en", size)
+    switch = find_item(window.shown.contentItem(), "action-pause")
+    assert switch is not None
     assert [words_of(text) for text in texts(switch)] == [CATALOGUES["en"].text("console-stay-paused")]
+
+
+@pytest.mark.parametrize(("size", "language"), in_turn(LAYOUTS))
+def test_words_of_buttons_stand_in_their_middle_below_their_sign_or_beside_it(
+    window: Window, language: str, size: tuple[int, int]
+) -> None:
+    show(window, language, size, health=with_the_copy(language))
+    (today,) = of_kind(window.shown.contentItem(), "PanelToday")
+    begins = ("action-", "how-", "break-", "panel-back")
+    buttons = [item for item in items(today) if item.objectName().startswith(begins)]
+    buttons.remove(sole(of_kind(today, "PanelSwitch")))
+    assert len(buttons) >= 6
+    for button in buttons:
+        text = sole(texts(button))
+        shown = QRectF(painted(text))
+        for drawing in of_kind(button, "Drawing"):
+            shown = shown.united(drawing.mapRectToScene(drawing.boundingRect()))
+        middle = button.mapToScene(QPointF(button.width() / 2, 0)).x()
+        assert shown.center().x() == pytest.approx(middle, abs=12 * unit_of(size)), words_of(text)
 
 
 @pytest.mark.parametrize("size", LAYOUTS)
@@ -605,7 +640,7 @@ def test_the_first_page_needs_no_scrolling_while_a_visitor_plays(
 
 
 @pytest.mark.parametrize(("copies", "under_way", "size", "language"), in_turn([False, True], [False, True], LAYOUTS))
-def test_actions_stand_in_groups_of_one_height_and_the_last_one_ends_the_session(
+def test_actions_stand_in_tiles_then_a_break_then_apart_what_ends_the_session(
     window: Window, language: str, size: tuple[int, int], *, copies: bool, under_way: bool
 ) -> None:
     busy = busy_day(language)
@@ -616,32 +651,22 @@ def test_actions_stand_in_groups_of_one_height_and_the_last_one_ends_the_session
     ]
     show(window, language, size, health=health, choices=busy["choices"] | {"underWay": under_way, "breaks": breaks})
     (actions,) = of_kind(window.shown.contentItem(), "PanelActions")
-    rows = [item for item in items(actions) if item.objectName().startswith(("action-", "test-voice"))]
-    assert len(rows) == (3 if under_way else 2) + (not copies)
-    assert len({item.height() for item in rows}) == 1
-    first, silence, *others = rows
-    wide = size[0] > size[1]
-    if wide:
-        assert len({item.width() for item in rows}) == 1
-    else:
-        # What is done all day stands side by side, and the rest has rows of its own.
-        assert level(first) == level(silence)
-        assert first.width() == silence.width() < 0.5 * actions.width()
-        assert {item.width() for item in others} <= {actions.width()}
-    assert [item.objectName() == "action-end" for item in rows] == [False] * (len(rows) - 1) + [under_way]
+    found = [item for item in items(actions) if item.objectName().startswith(("action-", "test-voice"))]
+    first, silence, *others = found
+    names = [*([] if copies else ["action-backup"]), *(["action-end"] if under_way else [])]
+    assert [item.objectName() for item in others] == names
+    # What is done all day: two equal tiles.
+    assert level(first) == level(silence)
+    assert (first.width(), first.height()) == (silence.width(), silence.height())
+    assert first.width() < 0.5 * actions.width()
     assert [words_of(text) for text in texts(actions) if is_broken(text)] == []
-    # The answers to when one is back lie between the rows around them, in whole rows.
+    # The answers to when one is back have one row, lower than the tiles.
     answers = [item for item in items(actions) if item.objectName().startswith("break-")]
     assert len(answers) == len(breaks)
-    heights = [level(item) for item in answers]
-    assert len(set(map(round, heights))) == (2 if wide and not under_way else 1)
-    above = [item for item in rows if item.objectName() != "action-end"][-1]
-    assert min(heights) > level(above) + above.height()
-    if under_way:
-        # What ends the session is as far from the rest as all groups are from each other, and as the page's cards are.
-        ends = max(heights) + answers[0].height()
-        (today,) = of_kind(window.shown.contentItem(), "PanelToday")
-        assert level(rows[-1]) - ends == pytest.approx(today.property("space"), abs=ROUNDED)
+    assert len({(level(item), item.height()) for item in answers}) == 1
+    assert answers[0].height() < first.height()
+    last = others[0] if not copies else first
+    assert level(answers[0]) > level(last) + last.height()
     # The heading of the break begins where its answers do, and is as bold as they are.
     heading = next(text for text in texts(actions) if words_of(text) == CATALOGUES[language].text("console-break"))
     first_answer = min(answers, key=lambda item: item.mapToScene(QPointF()).x())
@@ -649,8 +674,12 @@ def test_actions_stand_in_groups_of_one_height_and_the_last_one_ends_the_session
     assert {
         text.property("font").bold() for text in [heading, *(each for item in answers for each in texts(item))]
     } == {True}
-    if wide:
-        assert {item.height() for item in answers} == {first.height()}
+    if under_way:
+        # What ends the session is further from the break than that is from the rest, and no wider than its words.
+        end, apart = others[-1], level(heading) - level(last) - last.height()
+        assert level(end) - level(answers[0]) - answers[0].height() > apart
+        assert end.width() <= end.property("implicitWidth") + 1
+        assert end.height() < first.height()
 
 
 @pytest.mark.parametrize(("size", "language"), in_turn(LAYOUTS))

@@ -1,4 +1,4 @@
-// What can be done at once, one gap apart: what is done all day, then a break, and last what ends a session.
+// What can be done at once: in two tiles what is done all day, then a break, and apart from them what ends a session.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -15,63 +15,57 @@ Column {
     // How large their words are where they fit, and how high the list is at least.
     required property real size
     property real least: 0
-    // One gap parts them all, as it parts the cards of the page.
+    // How far the cards of the page are from each other.
     required property real space
     readonly property var words: panel.words
     readonly property var choices: panel.choices
     readonly property bool normal: Theme.textSize <= 1.15
     readonly property bool underWay: choices.underWay
     readonly property var offered: choices.breaks ?? []
-    readonly property var named: [words[underWay ? "console-repeat" : "console-test-the-voice"], ...(has("mute") ? [words[choices.muted ? "console-heard" : "console-mute"]] : []), ...(has("backup") ? [words["console-backup"]] : [])].map(each => each ?? "")
+    readonly property list<string> daily: [words[underWay ? "console-repeat" : "console-test-the-voice"], ...(has("mute") ? [words[choices.muted ? "console-heard" : "console-mute"]] : [])].map(each => each ?? "")
+    readonly property string copying: !has("backup") ? "" : (words["console-backup"] ?? "") + (choices.backup === "" ? "" : ": " + choices.backup)
 
     // Whole pixels, so that all rows end in line.
     readonly property real across: Math.floor(width)
-    readonly property real edge: Math.round(1.4 * Theme.gap)
+    readonly property real each: Math.floor((across - (daily.length - 1) * between) / daily.length)
+    readonly property real between: Math.round(12 * Theme.unit)
+    readonly property real edge: Math.round(Theme.gap)
     readonly property real lettering: lettered(size)
-    readonly property real lowest: (wide ? 72 : 88) * Theme.unit
-    // The first two stand side by side on an upright page, where both have one line there.
-    readonly property bool paired: pairs(size)
-    readonly property real daily: paired ? Math.floor((across - spacing) / 2) : across
-    readonly property int rows: rowsOf(size)
-    readonly property real tall: Math.max(low(lettering), Math.min(normal ? (wide ? 4.2 : 3.1) * lettering : 0, Math.floor((least - beyond(lettering) - (rows - 1) * spacing) / rows)))
-
-    // All words have one line, where that does not make them small. On an upright page they have the room to be larger
-    // than those of the notice.
-    function lettered(size: real): real {
-        if (!normal)
-            return size
-        const most = wide ? size : Math.max(size, Math.min(1.2 * size, 36 * Theme.unit))
-        const room = across - 2 * edge, half = pairs(size) ? Math.floor((across - spacing) / 2) - 2 * edge : room
-        const needs = [...named, words["console-abort"] ?? ""].map((text, at) => (at < 2 ? half : room) / (wordWidths.bold(text, 1) + 2.3))
-        return Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(most, ...needs)))
-    }
-    function pairs(size: real): bool {
-        const half = Math.floor((across - spacing) / 2) - 2 * edge
-        return !wide && has("mute") && named.slice(0, 2).every(text => size * (wordWidths.bold(text, 1) + 2.3) <= half)
-    }
-    function rowsOf(size: real): int {
-        const asked = Math.ceil(offered.length / besides())
-        return named.length - (pairs(size) ? 1 : 0) + (underWay ? 1 : 0) + asked
-    }
-    function low(size: real): real {
-        return Math.ceil(Math.max(lowest, 1.4 * size + 18 * Theme.unit))
-    }
-    // What the break needs beyond its rows: its title stands above its answers.
-    function beyond(size: real): real {
-        return offered.length === 0 ? 0 : titled(size) + below
-    }
-    function titled(size: real): real {
-        return Math.ceil(1.4 * size * wordWidths.lines(words["console-break"] ?? "", size, across))
-    }
+    // What a page has left makes the tiles a little higher. Most of it is air: before the break, and before the end.
+    readonly property real free: Math.max(0, least - deep(size))
+    readonly property real tall: tileDeep(lettering) + Math.floor(Math.min(0.4 * free, Theme.gap + 2.5 * lettering))
+    readonly property real low: lowOf(lettering) + Math.floor(Math.min(0.1 * free, 0.6 * lettering))
+    readonly property real apart: space + Math.floor(Math.min(0.2 * free, 2.5 * Theme.gap))
+    readonly property real last: Math.round(1.3 * space)
     readonly property real below: Math.round(10 * Theme.unit)
-    // How many answers stand in a row: four have two rows in a column.
-    function besides(): int {
-        return wide && offered.length > 3 ? 2 : Math.max(1, offered.length)
+
+    // All words have one line, where that does not make them small.
+    function lettered(size: real): real {
+        const needs = daily.map(text => (each - 2 * edge) / (wordWidths.bold(text, 1) + 0.1))
+        return normal ? Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(size, ...needs))) : size
+    }
+    function lowOf(letters: real): real {
+        return Math.ceil(Math.max((wide ? 72 : 84) * Theme.unit, 1.4 * letters + 18 * Theme.unit))
+    }
+    function tileDeep(letters: real): real {
+        const lines = Math.max(1, ...daily.map(text => wordWidths.lines(text, letters, each - 2 * edge)))
+        return Math.ceil((2.55 + 1.37 * lines) * letters + 0.85 * Theme.gap)
+    }
+    function titled(letters: real): real {
+        return Math.ceil(1.4 * letters * wordWidths.lines(words["console-break"] ?? "", letters, across))
+    }
+    // How many answers stand in a row, and how wide each is there.
+    function besides(letters: real): int {
+        const wish = Math.max(0, ...offered.map(option => wordWidths.bold(option.label, 0.8 * letters))) + 20 * Theme.unit
+        return Math.max(1, Math.min(offered.length, Math.floor((across + between) / (wish + between))))
     }
     // How high they are at least if their words are written so large.
     function deep(size: real): real {
-        const letters = lettered(size)
-        return Math.ceil(rowsOf(size) * (low(letters) + spacing) - spacing + beyond(letters))
+        const letters = lettered(size), row = lowOf(letters), rows = Math.ceil(offered.length / besides(letters))
+        const copies = copying === "" ? 0 : between + Math.max(row, 1.4 * letters * wordWidths.lines(copying, letters, across - 2 * edge - 2 * letters) + 18 * Theme.unit)
+        const asked = rows === 0 ? 0 : space + titled(letters) + below + rows * (row + between) - between
+        const ends = underWay ? last + Math.max(row, 1.4 * letters * wordWidths.lines(words["console-abort"] ?? "", letters, across - 2 * edge - 2 * letters) + 18 * Theme.unit) : 0
+        return Math.ceil(tileDeep(letters) + copies + asked + ends)
     }
 
     // Whether the button of an action stands here.
@@ -87,26 +81,24 @@ Column {
         id: wordWidths
     }
 
-    spacing: space
     Accessible.role: Accessible.Grouping
     Accessible.name: words["console-actions"]
 
     component Action: PanelButton {
-        least: actions.tall
-        width: actions.across
+        least: stacked ? actions.tall : actions.low
+        width: stacked ? actions.each : actions.across
         horizontalPadding: actions.edge
-        ground: Theme.white
+        plain: true
         ringInPlace: true
         font { pixelSize: actions.lettering; bold: true }
     }
 
-    Grid {
-        columns: actions.paired ? 2 : 1
-        spacing: actions.spacing
+    Row {
+        spacing: actions.between
 
         // While a visitor is there, the voice is theirs.
         Action {
-            width: actions.daily
+            stacked: true
             objectName: "test-voice"
             visible: !actions.underWay
             enabled: !actions.choices.muted
@@ -115,7 +107,7 @@ Column {
             onClicked: actions.panel.wish("test_voice", "")
         }
         Action {
-            width: actions.daily
+            stacked: true
             objectName: "action-again"
             visible: actions.underWay
             words: actions.words["console-repeat"]
@@ -123,7 +115,7 @@ Column {
             onClicked: actions.panel.wish("repeat", "")
         }
         Action {
-            width: actions.daily
+            stacked: true
             id: mute
             objectName: "action-mute"
             visible: actions.has("mute")
@@ -132,13 +124,18 @@ Column {
             onClicked: actions.panel.wish("mute", "")
         }
     }
+    Item {
+        visible: backup.visible
+        width: 1
+        height: actions.between
+    }
     // Why a copy has to wait may take two lines.
     Action {
         id: backup
         objectName: "action-backup"
         visible: actions.has("backup")
         enabled: actions.choices.backup === ""
-        words: actions.words["console-backup"] + (enabled ? "" : ": " + actions.choices.backup)
+        words: actions.copying
         drawing: actions.signs.backup
         onClicked: actions.panel.wish("backup", "")
     }
@@ -146,6 +143,7 @@ Column {
     Column {
         visible: actions.offered.length > 0
         width: actions.across
+        topPadding: actions.apart
         spacing: actions.below
         PlainText {
             width: parent.width
@@ -163,27 +161,39 @@ Column {
             action: "break"
             titled: false
             even: true
-            strong: true
-            across: actions.besides()
-            between: Math.round(12 * Theme.unit)
-            least: actions.tall
-            size: actions.lettering
+            plain: true
+            across: actions.besides(actions.lettering)
+            between: actions.between
+            least: actions.low
             // A little smaller where that keeps them in their row.
             lettering: Math.floor(actions.lettering * Math.min(1, (each - 20 * Theme.unit) / Math.max(1, widest)))
-            ground: Theme.white
             title: actions.words["console-break"]
             options: actions.offered
             chosen: actions.choices.break ?? ""
             onPicked: value => actions.panel.wish("break", value)
         }
     }
-    // Last: it takes a game from a visitor.
+    // Last, and apart: it takes a game from a visitor.
+    Item {
+        visible: end.visible
+        width: 1
+        height: Math.max(actions.last, actions.least - actions.above - end.height)
+    }
     Action {
+        id: end
+        width: Math.min(actions.across, Math.ceil(implicitWidth))
+        horizontalPadding: 2 * Theme.gap
+        x: Math.floor((actions.across - width) / 2)
         objectName: "action-end"
         visible: actions.underWay
+        plain: false
         grave: true
+        ground: "transparent"
+        least: actions.lowOf(actions.lettering)
         words: actions.words["console-abort"]
         drawing: "M12.5 4 H4.5 V20 H12.5 M9.5 12 H21 M16.5 7.5 L21 12 L16.5 16.5"
         onClicked: actions.panel.wish("abort", "")
     }
+    // How high all is that stands before the end.
+    readonly property real above: tall + (copying === "" ? 0 : between + backup.height) + (offered.length === 0 ? 0 : apart + titled(lettering) + below + breaks.height)
 }

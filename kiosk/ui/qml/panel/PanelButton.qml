@@ -18,17 +18,20 @@ Button {
     property bool ringInPlace: false
     // What takes something from a visitor.
     property bool grave: false
+    // What is there all day, and weighs less than what is to be done: a tint, and no edge.
+    property bool plain: false
     property real least: 68 * Theme.unit
     readonly property color tone: grave ? Theme.deepAmber : Theme.sea
     property bool solid: chosen || (filled && enabled)
     // What lies below its words while it is not solid.
-    property color ground: Theme.paper
+    property color ground: !plain ? Theme.paper : enabled ? Theme.resting : "transparent"
+    // A low one is round at its ends, and a tile has the corners of the visitor's tiles.
+    readonly property real corner: Math.min(height / 2, (stacked ? 44 : 60) * Theme.unit)
     property int alignment: Text.AlignHCenter
-    // The lines of a small drawing before its words, on a square of 24; none without.
+    // The lines of a small drawing before its words, on a square of 24; none without. In a tile it stands above them.
     property string drawing: ""
-    property real sign: drawing === "" ? 0 : 1.45 * font.pixelSize
-    // Whether drawing and words stand in its middle, beside each other.
-    property bool centred: false
+    property bool stacked: false
+    property real sign: drawing === "" ? 0 : (stacked ? 2.2 : 1.45) * font.pixelSize
     property color front: solid ? Theme.white : enabled ? tone : Theme.faintInk
 
     width: Math.min(Math.ceil(implicitWidth), parent?.width ?? Infinity)
@@ -37,7 +40,7 @@ Button {
     focusPolicy: Qt.StrongFocus
     horizontalPadding: 18 * Theme.unit
     verticalPadding: 9 * Theme.unit
-    font { pixelSize: Theme.dense; bold: solid || grave }
+    font { pixelSize: Theme.dense; bold: solid || grave || plain }
     checkable: choosable
     checked: choosable && chosen
     onCheckedChanged: if (checked !== (choosable && chosen)) checked = Qt.binding(() => button.choosable && button.chosen)
@@ -53,47 +56,52 @@ Button {
 
     contentItem: Item {
         id: parts
-        readonly property real before: button.sign > 0 ? button.sign + 0.6 * button.font.pixelSize : 0
-        readonly property real start: button.centred ? Math.max(0, (width - implicitWidth) / 2) : 0
-        implicitWidth: before + Math.ceil(natural.advanceWidth) + 1
-        implicitHeight: Math.max(button.sign, letters.implicitHeight)
-        TextMetrics {
+        readonly property real before: button.sign > 0 && !button.stacked ? button.sign + 0.5 * button.font.pixelSize : 0
+        readonly property real above: button.sign > 0 && button.stacked ? button.sign + 0.35 * button.font.pixelSize : 0
+        readonly property real start: Math.max(0, (width - before - needed) / 2)
+        readonly property real needed: wide(button.words, natural.font)
+        implicitWidth: before + needed
+        implicitHeight: above > 0 ? above + letters.implicitHeight : Math.max(button.sign, letters.implicitHeight)
+        // What is measured depends on the font, which is named for that reason alone.
+        function wide(text: string, _font: font): real {
+            return Math.ceil(natural.advanceWidth(text)) + 1
+        }
+        FontMetrics {
             id: natural
-            text: button.words
             font: button.font
         }
         Drawing {
             visible: button.drawing !== ""
-            x: parts.start + (button.sign - width) / 2
-            y: (parts.height - height) / 2
+            x: (button.stacked ? parts.width / 2 : parts.start + button.sign / 2) - width / 2
+            y: (button.stacked ? (parts.height - parts.implicitHeight + button.sign) / 2 : parts.height / 2) - height / 2
             scale: button.sign / 24
             path: button.drawing
             ink: button.front
         }
         Balanced {
             id: letters
-            x: parts.start + parts.before
+            x: button.drawing === "" || button.stacked ? 0 : parts.start + parts.before
             // Level with those of its neighbours, however many lines they have.
-            y: (parts.height - height) / 2
-            width: parts.width - parts.before - parts.start
+            y: (parts.height + parts.above - height) / 2
+            width: parts.width - x - (x > 0 ? parts.start : 0)
             text: button.words
             font: button.font
             color: button.front
-            horizontalAlignment: button.drawing === "" ? button.alignment : Text.AlignLeft
+            horizontalAlignment: button.alignment
             // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
-            wrapMode: width < Math.floor(natural.advanceWidth) ? Text.Wrap : Text.NoWrap
+            wrapMode: width < parts.needed - 2 ? Text.Wrap : Text.NoWrap
             Accessible.ignored: true
         }
     }
     background: Rectangle {
-        radius: 12 * Theme.unit
+        radius: button.corner
         color: button.solid ? (button.filled && button.hovered ? Theme.lightSea : Theme.sea) : button.down ? Theme.sand : button.hovered ? Theme.white : button.ground
         // What cannot be pressed now has a pale edge.
-        border { color: button.enabled ? button.tone : Theme.edge; width: (button.grave ? 3 : 2) * Theme.unit }
+        border { color: button.enabled ? button.tone : Theme.edge; width: button.plain && button.enabled && !Theme.highContrast ? 0 : 2 * Theme.unit }
         FocusRing {
             around: button
             reach: (button.ringInPlace ? 0 : 5) * Theme.unit
-            radius: (button.ringInPlace ? 12 : 15) * Theme.unit
+            radius: button.corner + reach
             border.width: (button.ringInPlace ? 5 : 3) * Theme.unit
         }
     }

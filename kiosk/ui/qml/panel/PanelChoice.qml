@@ -13,8 +13,8 @@ Column {
     property bool titled: true
     // Whether they take all of the width, in one row where their words fit.
     property bool even: false
-    // Whether all answers are as bold as the buttons around them.
-    property bool strong: false
+    // Whether all answers look as the actions around them do.
+    property bool plain: false
     property real least: 68 * Theme.unit
     // How wide each answer is at least, however short its words.
     property real broad: 0
@@ -25,7 +25,6 @@ Column {
     property int across: options.length
     property real between: Math.round(9 * Theme.unit)
     readonly property real each: Math.floor((width - (across - 1) * between) / Math.max(1, across))
-    property color ground: Theme.paper
     signal picked(string value)
 
     spacing: 8 * Theme.unit
@@ -54,9 +53,10 @@ Column {
                 chosen: modelData.value === choice.chosen
                 choosable: true
                 least: choice.least
-                ground: choice.ground
+                plain: choice.plain && !solid
+                ringInPlace: choice.plain
                 horizontalPadding: (choice.even ? 8 : 18) * Theme.unit
-                font { pixelSize: choice.lettering; bold: choice.strong || solid }
+                font { pixelSize: choice.lettering; bold: choice.plain || solid }
                 width: choice.even && implicitWidth <= choice.each ? (index % choice.across === choice.across - 1 ? last : choice.each) : Math.min(Math.max(choice.broad, Math.ceil(implicitWidth)), choice.width)
                 Accessible.role: Accessible.RadioButton
                 Accessible.name: `${choice.title} ${words}`

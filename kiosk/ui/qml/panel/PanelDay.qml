@@ -13,7 +13,7 @@ Row {
     readonly property real share: panel.alarms.length > 0 ? 0.9 : 1
     // Without a target, and before the first game, there is nothing to tell of it.
     readonly property var shown: panel.today.tiles.filter(each => each.name !== "stage" && each.value !== "-")
-    readonly property real figure: (Theme.textSize > 1.15 ? 2 : share < 1 ? 2.4 : 2.7) * Theme.dense
+    readonly property real figure: (Theme.textSize > 1.15 || share < 1 ? 2 : 2.3) * Theme.dense
     // Each has what it needs, and all of them the same of what is left.
     readonly property var widths: widthsOf(size, width)
 

@@ -52,10 +52,7 @@ PanelSection {
     // Its marks stand below those of the notice.
     inset: Math.round(1.4 * Theme.gap)
     visible: lines.length > 0
-    // Without a card of its own: it is read last.
-    color: "transparent"
-    border.width: 0
-    least: spare < limit ? most : 0
+    least: Theme.upright && spare === limit ? 0 : most
     apart: 0
 
     PanelDay {

@@ -1,5 +1,5 @@
 // Everything that is to be done, in rows of one shape: what is the matter, what to do, and at the end the button that
-// does it, or one that shows the command to type elsewhere. What a button does here stands first.
+// does it, or shows the command to type elsewhere. What a button does here stands first.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -10,6 +10,8 @@ Rectangle {
 
     required property PanelScreen panel
     required property real size
+    // How much higher each row is than it needs to be.
+    property real more: 0
     readonly property var matters: panel.health.matters
     // The actions that answer one of them: their buttons stand here, and not among the others.
     readonly property var answered: matters.map(matter => matter.action ?? "").filter(action => action !== "")
@@ -25,13 +27,12 @@ Rectangle {
     readonly property real mark: 1.7 * size
     readonly property real above: Math.round(0.5 * Theme.gap)
     readonly property real between: Math.round(0.42 * Theme.gap)
-    readonly property real answer: 0.94 * size
-    readonly property real padding: 16 * Theme.unit
-    readonly property string how: panel.words["console-how"] ?? ""
-    // On an upright page a command has the least letters, so that what is the matter has larger ones.
-    readonly property real typed: typedOf(size)
+    readonly property real answer: answerOf(size)
+    readonly property real padding: 28 * Theme.unit
+    // Letters of one width are wide.
+    readonly property real typed: Math.max(27 * Theme.unit, 0.86 * size)
     readonly property real least: (Theme.upright ? 80 : 72) * Theme.unit
-    // All answers are as wide as the widest, and stand at the end of their rows, or all of them below.
+    // All answers are as wide as the widest needs, and stand at the end of their rows, or all of them below.
     readonly property real answering: answeringOf(size)
     readonly property bool aside: asides(size)
     readonly property var signs: ({
@@ -50,14 +51,12 @@ Rectangle {
     function isAnswered(matter: var): bool {
         return Boolean(matter.action || matter.command)
     }
-    function typedOf(size: real): real {
-        return Math.max((Theme.upright ? 30 : 27) * Theme.unit * Math.max(1, Theme.textSize), Theme.upright ? 0 : 0.94 * size)
+    function answerOf(size: real): real {
+        return Math.min(size, Math.max(27 * Theme.unit, 0.94 * size))
     }
     function answeringOf(size: real): real {
-        const pressed = words => wordWidths.bold(words, size) + 2.05 * size + (Theme.upright ? 32 : 44) * Theme.unit
-        const wide = matter => matter.action ? pressed(matter.button)
-            : matter.command ? Math.max(pressed(how), typeWidths.advanceWidth(matter.command) * 0.01 * typedOf(size) + 2 * padding + 6 * Theme.unit) : 0
-        return Math.ceil(Math.max(...matters.map(wide)) * 1.01)
+        const pressed = matters.filter(isAnswered).map(matter => wordWidths.bold(matter.button, size))
+        return Math.ceil(Math.max(0, ...pressed) * 1.01 + 1.95 * size + 2 * padding + 2 * Theme.unit)
     }
     // What the words of a matter have beside its answer.
     function beside(matter: var, size: real): real {
@@ -73,10 +72,10 @@ Rectangle {
     }
     // How high it is if it is written so large.
     function deep(size: real): real {
-        const line = each => Math.ceil(1.37 * each), below = !asides(size)
+        const line = each => Math.ceil(1.37 * each), below = !asides(size), answer = answerOf(size)
         const high = matter => {
             const own = beside(matter, size), answers = isAnswered(matter) ? Math.max(least, line(size) + 18 * Theme.unit) : 0
-            const words = wordWidths.lines(said(matter), size, own) * line(size) + (matter.remedy ? wordWidths.plainLines(matter.remedy, 0.94 * size, own) * line(0.94 * size) : 0)
+            const words = wordWidths.lines(said(matter), size, own) * line(size) + (matter.remedy ? wordWidths.plainLines(matter.remedy, answer, own) * line(answer) : 0)
             return below ? words + (answers > 0 ? answers + 6 * Theme.unit : 0) : Math.max(answers, words)
         }
         return Math.ceil(matters.reduce((sum, matter) => sum + high(matter) + 2 * between + 2 * Theme.unit, 0) - 2 * between - 2 * Theme.unit + 2 * above + 2 * between)
@@ -90,25 +89,21 @@ Rectangle {
     WordWidths {
         id: wordWidths
     }
-    FontMetrics {
-        id: typeWidths
-        font { family: "monospace"; pixelSize: 100 }
-    }
 
     component Matter: Item {
         id: row
         property var matter: null
         readonly property bool first: matter !== null && matter.name === notice.ordered[0]?.name
         readonly property string command: matter?.command ?? ""
-        readonly property bool open: notice.opened.includes(command)
+        readonly property bool open: command !== "" && notice.opened.includes(command)
         readonly property string action: matter?.action ?? ""
         readonly property bool answered: matter !== null && notice.isAnswered(matter)
-        readonly property real foot: answered ? reply.height : 0
+        readonly property real foot: answered ? button.height : 0
         readonly property real room: matter === null ? 0 : notice.beside(matter, notice.size)
         property alias button: button
         visible: matter !== null
         width: notice.across
-        height: 2 * notice.between + (notice.aside ? Math.max(words.height, foot) : words.height + (answered ? foot + 6 * Theme.unit : 0))
+        height: 2 * notice.between + notice.more + (notice.aside ? Math.max(words.height, foot) : words.height + (answered ? foot + 6 * Theme.unit : 0))
         Rectangle {
             visible: !row.first
             width: parent.width
@@ -133,66 +128,54 @@ Rectangle {
                 color: Theme.ink
                 wrapMode: Text.Wrap
             }
-            Balanced {
-                visible: text !== ""
+            // The command takes the place of what to do, so that nothing below it moves.
+            Item {
+                visible: remedy.text !== "" || row.open
                 width: parent.width
-                text: row.matter?.remedy ?? ""
-                horizontalAlignment: Text.AlignLeft
-                font.pixelSize: notice.answer
-                color: Theme.ink
+                height: Math.max(remedy.height, typed.visible ? typed.height : 0)
+                Balanced {
+                    id: remedy
+                    visible: !row.open
+                    width: parent.width
+                    text: row.matter?.remedy ?? ""
+                    horizontalAlignment: Text.AlignLeft
+                    font.pixelSize: notice.answer
+                    color: Theme.ink
+                }
+                PlainText {
+                    id: typed
+                    visible: row.open
+                    width: parent.width
+                    text: row.command
+                    font { family: "monospace"; pixelSize: notice.typed }
+                    color: Theme.ink
+                    wrapMode: Text.Wrap
+                    Accessible.ignored: true
+                }
             }
         }
-        Item {
-            id: reply
+        // What is to be typed in a terminal is asked for: nothing of it can be done here.
+        PanelButton {
+            id: button
+            objectName: row.action !== "" ? `action-${row.action}` : `how-${row.command}`
+            visible: row.answered
             x: notice.aside ? row.width - width : notice.mark
             y: notice.aside ? Math.floor((row.height - height) / 2) : words.y + words.height + 6 * Theme.unit
             width: Math.min(notice.answering, row.width - (notice.aside ? 0 : notice.mark))
-            height: Math.max(button.visible ? button.height : 0, asking.visible ? asking.height : 0, notice.least)
-            PanelButton {
-                id: button
-                objectName: `action-${row.action}`
-                visible: row.action !== ""
-                width: reply.width
-                enabled: row.action !== "backup" || notice.panel.choices.backup === ""
-                least: notice.least
-                ground: Theme.white
-                horizontalPadding: 16 * Theme.unit
-                words: row.matter?.button ?? ""
-                drawing: notice.signs[row.action] ?? ""
-                font { pixelSize: notice.size; bold: true }
-                onClicked: notice.panel.wish(row.action, "")
-            }
-            // What is to be typed in a terminal is asked for: nothing of it can be done here.
-            PanelButton {
-                id: asking
-                objectName: `how-${row.command}`
-                visible: row.answered && row.action === ""
-                width: reply.width
-                height: Math.max(least, implicitHeight, typed.height + 2 * verticalPadding)
-                least: notice.least
-                ground: Theme.white
-                horizontalPadding: notice.padding
-                words: row.open ? "" : notice.how
-                drawing: row.open ? "" : notice.signs.how
-                font { pixelSize: notice.size; bold: true }
-                Accessible.name: row.matter === null ? "" : row.open ? row.command : `${notice.how} ${notice.said(row.matter)}`
-                onClicked: {
-                    notice.turn(row.command)
-                    if (row.open)
-                        asking.Accessible.announce(row.command, Accessible.Polite)
-                }
-            }
-            PlainText {
-                id: typed
-                visible: asking.visible && row.open
-                x: notice.padding
-                y: (parent.height - height) / 2
-                width: parent.width - 2 * x
-                text: row.command
-                font { family: "monospace"; pixelSize: notice.typed }
-                color: Theme.ink
-                wrapMode: Text.Wrap
-                Accessible.ignored: true
+            enabled: row.action !== "backup" || notice.panel.choices.backup === ""
+            least: notice.least
+            ground: row.open ? Theme.touchable : Theme.white
+            horizontalPadding: notice.padding
+            words: row.matter?.button ?? ""
+            drawing: notice.signs[row.action || "how"] ?? ""
+            font { pixelSize: notice.size; bold: true }
+            Accessible.name: row.open ? row.command : row.action !== "" ? button.words : `${button.words} ${row.matter === null ? "" : notice.said(row.matter)}`
+            onClicked: {
+                if (row.action !== "")
+                    return notice.panel.wish(row.action, "")
+                notice.turn(row.command)
+                if (row.open)
+                    button.Accessible.announce(row.command, Accessible.Polite)
             }
         }
     }

@@ -25,48 +25,61 @@ Rectangle {
     readonly property string word: (underWay ? words["console-paused"] : pausing ? words["console-on-break"] : stage?.value) ?? ""
     readonly property string second: underWay ? stage?.value ?? "" : ""
     readonly property string told: stage?.line ?? ""
+    // What is pressed most is filled and stands at the end; the way back is quiet beside it then.
+    readonly property string main: (pausing ? words["console-break-end"] : goesOn ? words["console-next"] : choices.back) ?? ""
+    readonly property string quiet: pausing || goesOn ? choices.back ?? "" : ""
+    readonly property string switched: underWay ? words["console-stay-paused"] ?? "" : ""
 
     readonly property real inset: Math.round(1.4 * Theme.gap)
-    readonly property real above: Math.round((beside ? 0.5 : 1) * Theme.gap)
+    readonly property real above: Math.round((!beside ? 1 : inRow ? 0.3 : 0.5) * Theme.gap)
     readonly property real space: Math.round((beside ? 8 : 14) * Theme.unit)
     readonly property real sign: underWay ? Math.round((tabled ? 2.9 : 2.4) * Theme.dense) : 0
     readonly property real signGap: underWay ? Math.round(1.1 * Theme.gap) : 0
-    readonly property real room: (beside ? width - side - Theme.gap : width - inset) - inset - sign - signGap
     readonly property real across: Math.floor(beside ? side - inset : width - 2 * inset)
+    readonly property real tall: Math.round((beside ? 104 : 112) * Theme.unit)
+    readonly property real low: Math.round((beside ? 72 : 76) * Theme.unit)
+    // In the middle of a wide band stand the quiet ones, where that leaves the state its room.
+    readonly property real middling: Math.round(1.4 * Theme.dense)
+    readonly property real middle: Math.ceil(Math.max(quiet === "" ? 0 : wordWidths.bold(quiet, middling) + 3.2 * middling, switched === "" ? 0 : wordWidths.column([switched], middling) + 122 * Theme.unit))
+    readonly property int quiets: (quiet === "" ? 0 : 1) + (switched === "" ? 0 : 1)
+    readonly property real before: quiets * (middle + Theme.gap)
+    readonly property bool inRow: beside && tabled && quiets > 0 && width - side - before - Theme.gap - inset - sign - signGap >= Math.max(1.04 * wordWidths.bold(word, 4.6 * Theme.dense), 11 * Theme.dense)
+    readonly property real room: (beside ? width - side - Theme.gap : width - inset) - (inRow ? before : 0) - inset - sign - signGap
     // Smaller where the state has a long name, and in two lines only where even small letters do not fit.
-    readonly property real crown: Math.floor(Math.max(2.4 * Theme.dense, Math.min(most, 98 * room / Math.max(1, wordWidths.bold(word, 100)))))
-    readonly property real most: (beside ? 5 : 4.6) * Theme.dense
-    readonly property var pressed: [...(pausing ? [words["console-break-end"]] : []), ...(goesOn ? [words["console-next"]] : []), choices.back].map(each => each ?? "")
-    readonly property real tall: Math.round((beside ? 92 : 108) * Theme.unit)
-    readonly property real low: Math.round((beside ? 64 : 76) * Theme.unit)
+    readonly property real crown: Math.floor(Math.max(2.4 * Theme.dense, Math.min(4.6 * Theme.dense, 98 * room / Math.max(1, wordWidths.bold(word, 100)))))
+    // How much nearer the line below it stands than its letters ask for.
+    readonly property real close: Math.floor((beside ? 0.1 : 0.05) * crown)
     readonly property real lettering: lettered(size)
-    // The words of the switch have one line beside its knob, where that does not make them small.
-    readonly property real switched: switchedOf(size)
     readonly property alias way: back
 
-    // All words of its buttons have one line, where that does not make them small.
+    // The words of its buttons have one line, where that does not make them small.
     function lettered(size: real): real {
         const most = (!tabled ? 1 : beside ? 1.15 : 1.3) * size
-        return Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(most, ...pressed.map(text => (across - 50 * Theme.unit) / (wordWidths.bold(text, 1) + 2.3)))))
+        return Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(most, ...[main, quiet].map(text => (across - 50 * Theme.unit) / (wordWidths.bold(text, 1) + 2.3)))))
     }
-    function switchedOf(size: real): real {
-        const most = (tabled && !beside ? 1.15 : 1) * size
-        return Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(most, (across - 128 * Theme.unit) / Math.max(1, 1.02 * wordWidths.plain(words["console-stay-paused"] ?? "", 1)))))
+    // The words of the switch beside its knob, too; in the middle of the band they have two.
+    function switching(size: real): real {
+        const most = tabled && !beside ? 1.15 * size : size
+        return inRow ? middling : Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(most, (across - 128 * Theme.unit) / Math.max(1, 1.02 * wordWidths.plain(switched, 1)))))
     }
     // How high the words are, and what is pressed.
     function saidDeep(size: real): real {
         const line = each => Math.ceil(1.37 * each)
         const behind = behinds(size) || second === "" || told === ""
-        return Math.max(sign, line(crown) * (0.08 + 0.92 * wordWidths.lines(word, crown, 1.03 * room)) + (behind ? 1 : 2) * line(1.25 * size))
+        return Math.max(sign, line(crown) * (0.08 + 0.92 * wordWidths.lines(word, crown, 1.03 * room)) - close + (second + told === "" ? 0 : behind ? 1 : 2) * line(under(size)))
     }
     function pressedDeep(size: real): real {
-        const letters = lettered(size)
-        const button = (text, least) => Math.max(least, 1.4 * letters * wordWidths.lines(text, letters, across - 2.05 * letters - 36 * Theme.unit) + 18 * Theme.unit)
-        const knob = underWay ? Math.max(low, 1.3 * switchedOf(size) * wordWidths.plainLines(words["console-stay-paused"] ?? "", switchedOf(size), across - 120 * Theme.unit) + 18 * Theme.unit) + space : 0
-        return pressed.reduce((sum, text, at) => sum + button(text, at === 0 ? tall : low) + space, -space) + knob
+        const letters = lettered(size), small = switching(size)
+        const button = (text, least) => text === "" ? 0 : Math.max(least, 1.4 * letters * wordWidths.lines(text, letters, across - 2.05 * letters - 36 * Theme.unit) + 18 * Theme.unit)
+        const knob = switched === "" ? 0 : Math.max(low, 1.3 * small * (inRow ? 2 : wordWidths.plainLines(switched, small, across - 120 * Theme.unit)) + 18 * Theme.unit)
+        const each = [button(main, tall), button(quiet, low), knob].filter(high => high > 0)
+        return inRow ? Math.max(...each) : each.reduce((sum, high) => sum + high + space, -space)
+    }
+    function under(size: real): real {
+        return (beside ? 1.15 : 1.25) * size
     }
     function behinds(size: real): bool {
-        return second !== "" && wordWidths.bold(second, 1.25 * size) * 1.02 + 0.5 * size + wordWidths.plain(told, 1.25 * size) * 1.02 <= room
+        return second !== "" && wordWidths.bold(second, under(size)) * 1.02 + 0.5 * size + wordWidths.plain(told, under(size)) * 1.02 <= room
     }
     // How high it is if its words are written so large.
     function deep(size: real): real {
@@ -104,8 +117,9 @@ Rectangle {
         Column {
             id: lines
             // Large letters have more room above them than below.
-            y: Math.floor((parent.height - height) / 2 - 0.06 * now.crown)
+            y: Math.floor((parent.height - height) / 2 - (now.beside ? 0.09 : 0.06) * now.crown)
             width: parent.width
+            spacing: -now.close
             PlainText {
                 width: parent.width
                 text: now.word
@@ -121,7 +135,7 @@ Rectangle {
                     visible: text !== ""
                     width: Math.min(implicitWidth, now.room)
                     text: now.second
-                    font { pixelSize: 1.25 * now.size; bold: true }
+                    font { pixelSize: now.under(now.size); bold: true }
                     color: Theme.ink
                     wrapMode: Text.Wrap
                 }
@@ -129,33 +143,37 @@ Rectangle {
                     visible: text !== ""
                     width: Math.min(implicitWidth, now.room)
                     text: now.told
-                    font.pixelSize: 1.25 * now.size
+                    font.pixelSize: now.under(now.size)
                     color: Theme.faintInk
                     wrapMode: Text.Wrap
                 }
             }
         }
     }
-    Column {
+    // What is filled stands first for the keyboard, and in a row at its end.
+    Grid {
         id: ways
-        x: now.beside ? now.width - now.side : now.inset
+        x: !now.beside ? now.inset : now.width - now.side - (now.inRow ? now.before : 0)
         y: now.beside ? Math.floor((now.height - height) / 2) : said.y + said.height + Theme.gap
-        width: now.across
-        spacing: now.space
+        columns: now.inRow ? now.quiets + 1 : 1
+        columnSpacing: Theme.gap
+        rowSpacing: now.space
+        layoutDirection: now.inRow ? Qt.RightToLeft : Qt.LeftToRight
+        verticalItemAlignment: Grid.AlignVCenter
 
         component Way: PanelButton {
-            width: now.across
+            readonly property string play: "M8 5 L19 12 L8 19 Z"
+            width: filled || !now.inRow ? now.across : now.middle
             least: filled ? now.tall : now.low
-            centred: true
             ground: "transparent"
-            font.pixelSize: now.lettering
+            font { pixelSize: filled || !now.inRow ? now.lettering : now.middling; bold: true }
         }
         Way {
             objectName: "break-end"
             filled: true
             visible: now.pausing
             words: now.words["console-break-end"]
-            drawing: "M8 5 L19 12 L8 19 Z"
+            drawing: play
             onClicked: now.panel.wish("break", "")
         }
         Way {
@@ -169,19 +187,19 @@ Rectangle {
         Way {
             id: back
             objectName: "panel-back"
-            filled: !now.pausing && !now.goesOn
+            filled: now.quiet === ""
             words: now.choices.back ?? ""
             // Only where it does let the visitor go on.
-            drawing: now.underWay && !now.choices.staysPaused ? "M8 5 L19 12 L8 19 Z" : "M20 12 H4 M10.5 5.5 L4 12 L10.5 18.5"
+            drawing: now.underWay && !now.choices.staysPaused ? play : "M20 12 H4 M10.5 5.5 L4 12 L10.5 18.5"
             onClicked: now.panel.wish("panel", "")
         }
         PanelSwitch {
             objectName: "action-pause"
             visible: now.underWay
-            width: now.across
+            width: now.inRow ? now.middle : now.across
             least: now.low
             horizontalPadding: 6 * Theme.unit
-            font.pixelSize: now.switched
+            font.pixelSize: now.switching(now.size)
             words: now.words["console-stay-paused"]
             on: now.choices.staysPaused
             onClicked: now.panel.wish("pause", "")

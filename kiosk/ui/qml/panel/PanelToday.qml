@@ -16,18 +16,20 @@ Item {
     // The letters are as large as goes, up to what is read well from where the experimenter stands, as long as the page
     // does not scroll for it. In whole pixels, as letters are drawn.
     readonly property real usual: wide ? 1.15 * Theme.dense : Math.max(Theme.dense, 26 * Theme.textSize * Theme.unit)
-    readonly property list<real> sizes: tabled ? [38, 36, 34, 32, 30, 28, 26].map(each => Math.round(each * Theme.unit)).filter(each => each > Math.round(usual)) : []
-    readonly property real size: sizes.find(each => (notice.holds(each) || each <= 32 * Theme.unit) && deep(each) <= seen) ?? usual
+    readonly property list<real> sizes: tabled ? [34, 32, 30, 28, 26].map(each => Math.round(each * Theme.unit)).filter(each => each > Math.round(usual)) : []
+    readonly property real size: sizes.find(each => (notice.holds(each) || each <= 32 * Theme.unit) && deep(each) + (each > 30 * Theme.unit ? air : 0) <= seen - 2) ?? usual
+    // An upright page keeps some room for the air between its parts before it has larger letters.
+    readonly property real air: wide ? 0 : 5.5 * Theme.gap
     // Whole pixels: a card at a fraction of one would lose its right edge.
-    readonly property real side: Math.floor(wide ? width * 0.31 : width)
+    readonly property real side: Math.floor(wide ? width * 0.38 : width)
     readonly property real main: wide ? width - side - space : width
     readonly property real below: now.height + space
     readonly property alias way: now.way
     readonly property bool warned: notice.matters.length > 0
     readonly property bool allWell: !warned && panel.alarms.every(alarm => !alarm.holds)
-    // What a page has left is shared among the rows of its parts.
+    // What a page has left is shared among its parts; the last of them takes the rest.
     readonly property real free: Math.floor(seen - below)
-    readonly property real spread: wide || !tabled ? 0 : Math.max(0, Math.min(0.4 * acting, 0.5 * (free - (left.height > 0 ? left.height + space : 0) - acting - space - checked(size))))
+    readonly property real spare: !tabled ? 0 : Math.max(0, free - told(size) - (wide ? 0 : space + done(size)))
     readonly property real acting: actions.deep(size)
 
     // The keyboard stays on an action whose button goes from one place to the other.
@@ -42,19 +44,27 @@ Item {
             actions.take(acted)
     }
     function checked(size: real): real {
-        return health.visible ? health.bare(size) : 0
+        return health.visible ? health.bare(quieter(size)) : 0
     }
-    // How high the page is at least if it is written so large.
+    // What is read last is smaller than what is to be done.
+    function quieter(size: real): real {
+        return Math.min(size, Math.max(27 * Theme.unit, Math.round(0.9 * size)))
+    }
+    // How high the page is at least if it is written so large: the words at the left, and the actions.
     function deep(size: real): real {
+        return now.deep(size) + space + (wide ? Math.max(told(size), done(size)) : told(size) + space + done(size))
+    }
+    function told(size: real): real {
         const line = Math.ceil(1.4 * size)
         const alarmed = panel.alarms.length === 0 ? 0 : alarms.edges + (1 + panel.alarms.length) * 1.12 * line + panel.alarms.length * alarms.apart
         const parts = [alarmed, warned ? notice.deep(size) : 0, checked(size)].filter(each => each > 0)
-        const told = parts.reduce((sum, each) => sum + each + space, -space)
+        return parts.reduce((sum, each) => sum + each + space, -space)
+    }
+    function done(size: real): real {
+        const line = Math.ceil(1.4 * size)
         const waiting = panel.records.resumable.length
         const asked = 8 * Theme.unit + Math.ceil(1.12 * line) * wordWidths.lines(panel.words["console-resume"], 1.12 * size, side - 2 * alarms.inset)
-        const done = actions.deep(size) + (waiting === 0 ? 0 : space + alarms.edges + asked + waiting * Math.max(76 * Theme.unit, line + 18 * Theme.unit) + (waiting - 1) * 9 * Theme.unit)
-        const top = now.deep(size) + space
-        return top + (wide ? Math.max(told, done) : told + space + done)
+        return actions.deep(size) + (waiting === 0 ? 0 : space + alarms.edges + asked + waiting * Math.max(76 * Theme.unit, line + 18 * Theme.unit) + (waiting - 1) * 9 * Theme.unit)
     }
 
     WordWidths {
@@ -86,6 +96,7 @@ Item {
             id: notice
             width: parent.width
             size: today.size
+            more: Math.floor(Math.min(0.6 * Theme.gap, 0.2 * today.spare / Math.max(1, matters.length)))
             panel: today.panel
             visible: today.warned
         }
@@ -106,17 +117,18 @@ Item {
             wide: today.wide
             size: today.size
             // Beside the others it ends where the page does, so that what stands at its foot is seen.
-            least: today.panel.records.resumable.length > 0 ? 0 : today.wide ? today.free : today.acting + today.spread
+            least: today.panel.records.resumable.length > 0 ? 0 : today.wide ? today.free : today.acting + Math.floor(Math.min(0.4 * today.acting, 0.45 * today.spare))
         }
         PanelResume { width: parent.width; panel: today.panel; size: today.size }
     }
     PanelHealth {
         id: health
-        y: today.wide ? left.y + left.height + (left.height > 0 ? today.space : 0) : right.y + right.height + today.space
+        y: today.wide ? left.y + left.height + (left.height > 0 ? today.space : 0) : right.y + right.height + today.space + Math.floor(Math.min(Theme.gap, 0.2 * today.spare))
         width: today.main
         panel: today.panel
-        size: today.size
+        size: today.quieter(today.size)
         allWell: today.allWell
-        most: today.tabled ? Math.floor(today.seen - y) - 1 : 0
+        // Beside the actions it ends where they do.
+        most: today.tabled ? Math.floor((today.wide ? Math.min(today.seen, right.y + right.height) : today.seen - 1) - y) : 0
     }
 }
