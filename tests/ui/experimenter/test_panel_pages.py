@@ -682,6 +682,18 @@ def test_actions_stand_in_tiles_then_a_break_then_apart_what_ends_the_session(
         assert end.height() < first.height()
 
 
+@pytest.mark.parametrize(("matters", "size", "language"), in_turn([0, 3], [WIDE, (1280, 800), (1366, 768)]))
+def test_the_last_card_of_a_wide_page_ends_level_with_what_ends_the_session(
+    window: Window, language: str, size: tuple[int, int], matters: int
+) -> None:
+    health = with_the_copy(language)
+    show(window, language, size, health=health | {"matters": health["matters"][:matters]})
+    root = window.shown.contentItem()
+    (checks,), end = of_kind(root, "PanelHealth"), find_item(root, "action-end")
+    assert end is not None
+    assert level(checks) + checks.height() == pytest.approx(level(end) + end.height(), abs=ROUNDED)
+
+
 @pytest.mark.parametrize(("size", "language"), in_turn(LAYOUTS))
 def test_checks_stand_in_two_columns_equally_far_apart(window: Window, language: str, size: tuple[int, int]) -> None:
     lines = busy_day(language)["health"]["lines"] * 2

@@ -31,7 +31,7 @@ Button {
     // The lines of a small drawing before its words, on a square of 24; none without. In a tile it stands above them.
     property string drawing: ""
     property bool stacked: false
-    property real sign: drawing === "" ? 0 : (stacked ? 2.2 : 1.45) * font.pixelSize
+    property real sign: drawing === "" ? 0 : stacked ? Math.max(2.2 * font.pixelSize, Math.min(3 * font.pixelSize, 0.36 * least)) : 1.45 * font.pixelSize
     property color front: solid ? Theme.white : enabled ? tone : Theme.faintInk
 
     width: Math.min(Math.ceil(implicitWidth), parent?.width ?? Infinity)

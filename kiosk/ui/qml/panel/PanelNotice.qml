@@ -164,7 +164,7 @@ Rectangle {
             width: Math.min(notice.answering, row.width - (notice.aside ? 0 : notice.mark))
             enabled: row.action !== "backup" || notice.panel.choices.backup === ""
             least: notice.least
-            ground: row.open ? Theme.touchable : Theme.white
+            ground: row.open ? Theme.resting : Theme.white
             horizontalPadding: notice.padding
             words: row.matter?.button ?? ""
             drawing: notice.signs[row.action || "how"] ?? ""

@@ -30,6 +30,7 @@ Item {
     // What a page has left is shared among its parts; the last of them takes the rest.
     readonly property real free: Math.floor(seen - below)
     readonly property real spare: !tabled ? 0 : Math.max(0, free - told(size) - (wide ? 0 : space + done(size)))
+    readonly property real aired: wide ? 0 : Math.floor(Math.min(0.8 * Theme.gap, 0.15 * spare))
     readonly property real acting: actions.deep(size)
 
     // The keyboard stays on an action whose button goes from one place to the other.
@@ -104,7 +105,7 @@ Item {
     Column {
         id: right
         x: today.width - width
-        y: today.wide ? today.below : left.y + left.height + (left.height > 0 ? today.space : 0)
+        y: today.wide ? today.below : left.y + left.height + (left.height > 0 ? today.space + today.aired : 0)
         width: today.side
         spacing: today.space
         PanelActions {
@@ -117,13 +118,13 @@ Item {
             wide: today.wide
             size: today.size
             // Beside the others it ends where the page does, so that what stands at its foot is seen.
-            least: today.panel.records.resumable.length > 0 ? 0 : today.wide ? today.free : today.acting + Math.floor(Math.min(0.4 * today.acting, 0.45 * today.spare))
+            least: today.panel.records.resumable.length > 0 ? 0 : today.wide ? today.free : today.acting + Math.floor(Math.min(0.4 * today.acting, 0.4 * today.spare))
         }
         PanelResume { width: parent.width; panel: today.panel; size: today.size }
     }
     PanelHealth {
         id: health
-        y: today.wide ? left.y + left.height + (left.height > 0 ? today.space : 0) : right.y + right.height + today.space + Math.floor(Math.min(Theme.gap, 0.2 * today.spare))
+        y: today.wide ? left.y + left.height + (left.height > 0 ? today.space : 0) : right.y + right.height + today.space + today.aired
         width: today.main
         panel: today.panel
         size: today.quieter(today.size)
