@@ -38,7 +38,7 @@ Button {
     height: Math.max(least, implicitHeight)
     Accessible.name: words
     focusPolicy: Qt.StrongFocus
-    horizontalPadding: 18 * Theme.unit
+    horizontalPadding: 24 * Theme.unit
     verticalPadding: 9 * Theme.unit
     font { pixelSize: Theme.dense; bold: solid || grave || plain }
     checkable: choosable

@@ -55,7 +55,7 @@ Column {
                 least: choice.least
                 plain: choice.plain && !solid
                 ringInPlace: choice.plain
-                horizontalPadding: (choice.even ? 8 : 18) * Theme.unit
+                horizontalPadding: (choice.even ? 8 : 24) * Theme.unit
                 font { pixelSize: choice.lettering; bold: choice.plain || solid }
                 width: choice.even && implicitWidth <= choice.each ? (index % choice.across === choice.across - 1 ? last : choice.each) : Math.min(Math.max(choice.broad, Math.ceil(implicitWidth)), choice.width)
                 Accessible.role: Accessible.RadioButton

@@ -40,7 +40,7 @@ Item {
     function rowsOf(options: var, size: real, width: real): int {
         let rows = 1, end = 0
         for (const option of options) {
-            const each = Math.max(92 * Theme.unit, wordWidths.bold(option.label, size) + 38 * Theme.unit)
+            const each = Math.max(92 * Theme.unit, wordWidths.bold(option.label, size) + 50 * Theme.unit)
             rows += end > 0 && end + each > width ? 1 : 0
             end = (end > 0 && end + each <= width ? end : 0) + each + Math.round(9 * Theme.unit)
         }
@@ -117,6 +117,8 @@ Item {
                 width: Math.min(Math.ceil(implicitWidth), Math.floor(0.6 * later.width))
                 visible: next.choices.conditions.length > 0
                 least: 58 * Theme.unit
+                // The heading has one line beside it.
+                horizontalPadding: 18 * Theme.unit
                 font.pixelSize: Math.max(Theme.dense, 0.95 * next.size)
                 words: next.choices.named ? next.words["console-names-hide"] : next.words["console-names-show"]
                 onClicked: next.panel.wish("names", "")

@@ -93,6 +93,7 @@ Rectangle {
                     height: 96 * Theme.unit
                     words: digit ? modelData : pin.words["console-key-" + modelData] ?? ""
                     font { pixelSize: digit ? Theme.body : Theme.dense; bold: digit }
+                    horizontalPadding: 8 * Theme.unit
                     filled: modelData === "enter"
                     enabled: pin.card.step !== "wait"
                     focusPolicy: Qt.NoFocus
