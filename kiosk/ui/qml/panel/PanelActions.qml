@@ -31,11 +31,11 @@ Column {
     readonly property real between: Math.round(12 * Theme.unit)
     readonly property real edge: Math.round(Theme.gap)
     readonly property real lettering: lettered(size)
-    // What a page has left makes the tiles a little higher. Most of it is air: before the break, and before the end.
+    // What a page has left is shared by the tiles and by the air: before the break, and most of it before the end.
     readonly property real free: Math.max(0, least - deep(size))
-    readonly property real tall: tileDeep(lettering) + Math.floor(Math.min(0.4 * free, Theme.gap + 2.5 * lettering))
-    readonly property real low: lowOf(lettering) + Math.floor(Math.min(0.1 * free, 0.6 * lettering))
-    readonly property real apart: space + Math.floor(Math.min(0.2 * free, 2.5 * Theme.gap))
+    readonly property real tall: tileDeep(lettering) + Math.floor(Math.min((wide ? 0.48 : 0.4) * free, Theme.gap + 4.2 * lettering))
+    readonly property real low: lowOf(lettering) + Math.floor(Math.min(0.08 * free, 0.6 * lettering))
+    readonly property real apart: space + Math.floor(Math.min(0.17 * free, 2.5 * Theme.gap))
     readonly property real last: Math.round(1.3 * space)
     readonly property real below: Math.round(10 * Theme.unit)
 
