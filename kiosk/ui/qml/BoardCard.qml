@@ -46,14 +46,14 @@ Item {
     // It laps no neighbour; side by side, the two share the line between them.
     readonly property real largest: boardLayout.within(boardLayout.cell - 12 * Theme.unit, 1.08)
     property real proud: closes && (settles || !coming.running) ? 1 : 0
-    // A pair that was just found keeps its size in its frame until the next move.
-    property real fresh: boardState.latest.includes(index) && (settles || !coming.running) ? 1 : 0
+    // A pair that was just found keeps its size in its frame until the next move, or a hint: the mark alone is strong then.
+    property real fresh: boardState.latest.includes(index) && !boardState.marks && (settles || !coming.running) ? 1 : 0
     Behavior on fresh { NumberAnimation { duration: Theme.motion } }
     readonly property real apart: boardState.ended * (1 - proud)
     // How large a found card is, and the frame behind it.
     readonly property real beside: boardLayout.within(boardLayout.cell - 28 * Theme.unit, 1)
-    readonly property real rested: mix(mix(mix(0.86, boardLayout.within(boardLayout.framed - 2 * boardLayout.ring, 1.01), fresh), beside, apart), largest, proud)
-    readonly property real frame: mix(mix(0.9 * boardLayout.cell, boardLayout.framed, fresh), beside * boardLayout.card + 10 * Theme.unit, apart)
+    readonly property real rested: mix(mix(mix(0.88, boardLayout.within(boardLayout.framed - 2 * boardLayout.ring, 1.01), fresh), beside, apart), largest, proud)
+    readonly property real frame: mix(mix(0.88 * boardLayout.card + 14 * Theme.unit, boardLayout.framed, fresh), beside * boardLayout.card + 10 * Theme.unit, apart)
     function mix(from: real, to: real, share: real): real {
         return from + (to - from) * share
     }
