@@ -49,7 +49,7 @@ Rectangle {
     readonly property real keyWidth: numbers ? flat ? fitting(where.spare - 190 * Theme.unit - gap, 5, 90, 160)
         : grand ? fitting(where.spare, 3, 108, 420) : broad ? 150 * Theme.unit : roomy ? fitting(where.spare, 3, 108, 160) : 80 * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
     readonly property real keyHeight: grand ? Math.min(270 * Theme.unit, Math.floor((tall - 2 * margin + gap) / (ends ? 4 : 5) - gap))
-        : (numbers ? (flat ? 140 : roomy ? (ends ? 72 : 64) : 68) : 60) * Theme.unit
+        : (numbers ? (flat ? 140 : roomy ? (ends ? 82 : 64) : 68) : 60) * Theme.unit
     // How high large keys are with their edge: they end where the cards do, and cut none of these.
     readonly property real tall: Math.min(where.open, Math.max(where.covers, 684 * Theme.unit))
     // How large the words of a number's keys are.
