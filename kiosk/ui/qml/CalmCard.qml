@@ -133,17 +133,6 @@ FocusScope {
             anchors.centerIn: parent
             width: parent.width - 4 * Theme.gap
             spacing: (calm.roomy || calm.large && calm.beside > 0 ? (calm.code === "" ? 2 : calm.roomy ? 2.4 : 1.6) : calm.large && buttons.alone ? 2 : 1.5) * Theme.gap
-            Row {
-                anchors.horizontalCenter: parent.horizontalCenter
-                visible: calm.lies && !calm.spread
-                topPadding: 0.5 * Theme.gap
-                bottomPadding: 0.5 * Theme.gap
-                spacing: 1.2 * Theme.gap
-                Repeater {
-                    model: calm.lies && !calm.spread ? 3 : 0
-                    Lying { slot: (calm.large ? 160 : 120) * Theme.unit }
-                }
-            }
             Rectangle {
                 anchors.horizontalCenter: parent.horizontalCenter
                 visible: calm.sign !== "" && calm.lasts === 0
@@ -176,11 +165,22 @@ FocusScope {
                 color: calm.lineFirst ? Theme.sea : Theme.ink
                 horizontalAlignment: Text.AlignHCenter
             }
+            Row {
+                anchors.horizontalCenter: parent.horizontalCenter
+                visible: calm.lies && !calm.spread
+                topPadding: (calm.large ? 1 : 0.5) * Theme.gap
+                bottomPadding: topPadding
+                spacing: (calm.large ? 1.8 : 1.2) * Theme.gap
+                Repeater {
+                    model: calm.lies && !calm.spread ? 3 : 0
+                    Lying { slot: (calm.large ? 240 : 120) * Theme.unit }
+                }
+            }
             Balanced {
                 width: parent.width
                 visible: text !== ""
                 text: calm.more
-                font.pixelSize: calm.lineSize
+                font { pixelSize: calm.lineSize; bold: calm.lies }
                 color: Theme.ink
                 horizontalAlignment: Text.AlignHCenter
             }
@@ -200,16 +200,7 @@ FocusScope {
                     seconds: calm.seconds
                 }
             }
-            CalmChoices {
-                id: buttons
-                anchors.horizontalCenter: parent.horizontalCenter
-                most: content.width
-                choices: calm.choices
-                large: calm.large
-                roomy: calm.roomy
-                onChosen: name => calm.chosen(name)
-            }
-            // After what is asked and its answers: it is for later.
+            // Before the answers: one of them takes the card away.
             CalmCode {
                 anchors.horizontalCenter: parent.horizontalCenter
                 visible: calm.code !== ""
@@ -220,6 +211,15 @@ FocusScope {
                 aside: calm.beside > 0 && calm.large
                 large: calm.large
                 roomy: calm.roomy
+            }
+            CalmChoices {
+                id: buttons
+                anchors.horizontalCenter: parent.horizontalCenter
+                most: content.width
+                choices: calm.choices
+                large: calm.large
+                roomy: calm.roomy
+                onChosen: name => calm.chosen(name)
             }
         }
     }

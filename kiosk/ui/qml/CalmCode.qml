@@ -25,8 +25,9 @@ Rectangle {
 
     height: Math.ceil(asked.height + code.height + between + told.height + 2 * inset - high)
     radius: Theme.radius
-    color: Theme.white
-    border { color: Theme.amber; width: 4 * Theme.unit }
+    // Quieter than the question and its answers.
+    color: Theme.paper
+    border { color: Theme.edge; width: 3 * Theme.unit }
     FontMetrics {
         id: first
         font: asked.font

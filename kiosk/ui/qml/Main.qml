@@ -298,11 +298,11 @@ Window {
             // Beside the assistant, or above it.
             middle: layout.whole ? Qt.point(root.width / 2, root.room / 2)
                   : layout.wide ? layout.pageMiddle : Qt.point(root.width / 2, 0.36 * root.room)
-            least: (roomy ? 480 : large ? 660 : 500) * Theme.unit
+            least: (roomy ? 480 : large ? 896 : 500) * Theme.unit
             cardBack: root.cardBack
             cardShadow: root.cardShadow
             title: root.words["pause-title"]
-            titleSize: Theme.size(roomy ? 96 : 84)
+            titleSize: roomy ? Theme.size(96) : large ? largestInOneLine(title, [104, 100, 96, 92, 88, 84]) : Theme.size(84)
             line: root.kiosk.pauseLine
             more: root.kiosk.pauseMore
             lineFirst: root.kiosk.pauseEnds
