@@ -80,6 +80,17 @@ INFORMATION = Information(
     debrief=Page(title="Debrief", paragraphs=("what it was about",)),
 )
 """An information sheet with two purposes, of which one is required."""
+
+
+def with_needed_boxes(page: ConsentPage) -> ConsentPage:
+    """Return a page on which two boxes have to be ticked, with what its first two points say."""
+    stated = zip(("take_part", "store"), page.points, strict=False)
+    needed = tuple(Purpose(id=name, text=text) for name, text in stated)
+    # The boxes say what the first point says.
+    shorter = {"points": page.points[1:], "signs": page.signs[1:], "purposes": (*needed, *page.purposes)}
+    return page.model_copy(update=shorter)
+
+
 ITALIAN_INFORMATION = INFORMATION.model_copy(
     update={"about": Page(title="Di che cosa si tratta", paragraphs=("di questo",))}
 )

@@ -16,7 +16,7 @@ from PySide6.QtQuick import QQuickWindow
 from kiosk.experiment import effects as do
 from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import WorldEvent
-from kiosk.experiment.information import RETURNING
+from kiosk.experiment.information import PUBLISHING, RETURNING
 from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.questionnaire import Item
 from kiosk.store.codes import ALPHABET
@@ -110,7 +110,8 @@ class Rehearsal:
         self._app = app
         self._manner = visitor.manner
         self._leaves_in = visitor.leaves_in if visitor.manner is BehaviourKind.LEAVES else None
-        self._links = visitor.links
+        self._also = [PUBLISHING] + [RETURNING] * visitor.links
+        """What they still agree to, where it is up to them."""
         self._code = [each for each in visitor.code.upper() if each in ALPHABET]
         """What they still have to type of their code."""
         self.code = ""
@@ -241,12 +242,12 @@ class Rehearsal:
             self._click("agree")
         elif consent.needed:
             self._click(f"purpose-{min(consent.needed)}")
-        elif self._links:
-            self._links = False
-            if self._hand.is_visible(f"purpose-{RETURNING}") and RETURNING not in consent.ticked_purposes:
-                self._click(f"purpose-{RETURNING}")
+        elif self._also and self._manner is not BehaviourKind.HASTY:
+            purpose = self._also.pop(0)
+            if self._hand.is_visible(f"purpose-{purpose}") and purpose not in consent.ticked_purposes:
+                self._click(f"purpose-{purpose}")
         else:
-            if self._shots is not None:
+            if self._shots is not None and consent.ticked_purposes:
                 with self.pulse.aside():
                     self._shots.take("ticked")
             self._click("agree")

@@ -100,6 +100,11 @@ def told(language: str, old: str, new: str) -> dict[str, str]:
     return SHEETS | {name: SHEETS[name].replace(old, new)}
 
 
+def more_asked(purpose: str) -> str:
+    """Return the end of a sheet's consent with one more purpose."""
+    return f'[[consent.purposes]]\nid = "{purpose}"\ntext = "Yes."\n\n[debrief]'
+
+
 STUDIES: dict[str, Bad] = {
     # The file itself
     "no toml": Bad(
@@ -335,8 +340,8 @@ STUDIES: dict[str, Bad] = {
     "sheets with other purposes": Bad(
         TOLD,
         (
-            "the information sheets in {here}/sheets have different purposes: en: take_part, store, share "
-            "(optional); it: take_part, store, share (optional); es: take_part, store, share",
+            "the information sheets in {here}/sheets have different purposes: "
+            "en: share (optional); it: share (optional); es: share",
         ),
         told("es", "required = false\n", ""),
     ),
@@ -355,8 +360,8 @@ STUDIES: dict[str, Bad] = {
     ),
     "purpose twice": Bad(
         TOLD,
-        ("the information sheet {here}/sheets/en.toml: consent.purposes: the purpose 'store' stands twice",),
-        told("en", '"share"', '"store"'),
+        ("the information sheet {here}/sheets/en.toml: consent.purposes: the purpose 'share' stands twice",),
+        told("en", "[debrief]", more_asked("share")),
     ),
     "pointer without consent": Bad(
         "[privacy]\npointer_trace = true",
@@ -570,7 +575,7 @@ STUDIES: dict[str, Bad] = {
     ),
     "purposes that differ by capitals": Bad(
         TOLD,
-        (f"the information sheets in {{here}}/sheets: the purposes 'store' and 'Store' {ONE_NAME}",),
-        {name: sheet.replace('id = "share"', 'id = "Store"') for name, sheet in SHEETS.items()},
+        (f"the information sheets in {{here}}/sheets: the purposes 'share' and 'Share' {ONE_NAME}",),
+        {name: sheet.replace("[debrief]", more_asked("Share")) for name, sheet in SHEETS.items()},
     ),
 }

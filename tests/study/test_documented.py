@@ -13,7 +13,7 @@ from kiosk.experiment.information import Page
 from kiosk.experiment.questionnaire import ITEM_KINDS, Questionnaire
 from kiosk.study.csv_import import PLAIN, WORDED, Heading, read_items
 
-ELSEWHERE = ("[[items]]", "[project]", "signs =")
+ELSEWHERE = ("[[items]]", "[project]", "signs =", "[[consent.purposes]]")
 """What tells the blocks of other files: questionnaires, packages and information sheets."""
 
 BEYOND = Path(__file__).parents[2] / "docs" / "how-to" / "beyond.md"

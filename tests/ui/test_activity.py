@@ -307,8 +307,6 @@ def test_the_way_of_the_pointer_is_recorded_in_cards_of_those_who_agree(
 ) -> None:
     booth = make_booth(settings=with_a_purpose_for_the_pointer(tmp_path))
     booth.click("start-en")
-    for purpose in ("take_part", "store"):
-        booth.click(f"purpose-{purpose}")
     # This one lies further down the page.
     booth.app.screens.consent.ticked.emit("pointer", agrees)
     booth.click("agree")

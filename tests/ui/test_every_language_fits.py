@@ -35,6 +35,7 @@ from kiosk.ui.screens.registry import ScreenSet
 from kiosk.ui.simulated_visitor import UiDriver, find_item, lay_out
 from kiosk.ui.window import Window
 from tests import pseudo
+from tests.samples import with_needed_boxes
 from tests.ui.headless import let_go_of_pages, open_window
 
 SIZES = [(1280, 720), (720, 1280)]
@@ -321,7 +322,9 @@ def moments(screens: ScreenSet, study: StudyConfig) -> Iterator[tuple[str, str, 
     yield "attract", "attract", lambda: None
     yield "about", "about", lambda: screens.about.show(sheet.about)
     yield "consent", "consent", lambda: screens.consent.show(sheet.consent)
-    missing = tuple(purpose.id for purpose in sheet.consent.purposes if purpose.required)
+    asked = with_needed_boxes(sheet.consent)
+    yield "consent with boxes", "consent", lambda: screens.consent.show(asked)
+    missing = tuple(purpose.id for purpose in asked.purposes if purpose.required)
     yield "missing ticks", "consent", lambda: screens.consent.show_missing(missing)
     yield "age", "age", lambda: screens.age.ask(18)
     yield "introduction", "introduction", lambda: None
@@ -1351,8 +1354,8 @@ def test_the_ticket_of_a_code_is_as_far_from_its_words_above_as_below(
     assert coded is code
     assert largest > 1.7 * max(text.property("font").pixelSize() for text in (asked, told))
     assert not any(plan.catalogue.text("stop-line-kept").endswith(":") for plan in study.plans)
-    # The answers follow the question, and the ticket is for later.
-    assert frame.top() > max(whole(button).bottom() for button in (on, stop))
+    # It stands before the answers, as one of them takes the card away.
+    assert frame.bottom() < min(whole(button).top() for button in (on, stop))
     kiosk.ask("")
 
 

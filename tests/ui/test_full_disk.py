@@ -99,8 +99,6 @@ def test_a_disk_that_is_full_before_anything_is_kept_stops_nobody_who_does_not_t
     with open_repository(booth.data) as stored:
         before = stored.sessions()
     go_to(booth.app, Stage.CONSENT)
-    for purpose in ("take_part", "store"):
-        booth.click(f"purpose-{purpose}")
     disk.fill()
     booth.click("agree")
     assert booth.screen == "pause"

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import pytest
 from PySide6.QtGui import QAccessible, QAccessibleInterface
 
+from kiosk.config import ASSETS, Settings
 from kiosk.experiment.items import Answer
 from kiosk.ui.simulated_visitor import lay_out
 from tests.ui.conftest import Booth, MakeBooth
@@ -107,7 +108,10 @@ def test_a_slider_tells_its_value_and_that_it_has_none_and_is_moved_by_what_read
 
 
 def test_boxes_of_consent_tell_whether_they_are_ticked_and_what_lacks(make_booth: MakeBooth) -> None:
-    booth = make_booth(settings=whole_study())
+    # The sheets of this template have boxes that are needed.
+    sheets = {"text": str(ASSETS / "templates" / "children" / "information")}
+    settings = whole_study().model_copy(update={"consent": Settings.model_validate({"consent": sheets}).consent})
+    booth = make_booth(settings=settings)
     for name in ("start-en", "continue", "age-yes"):
         booth.click(name)
     first = booth.app.screens.consent.offered[0]

@@ -55,7 +55,7 @@ def test_a_whole_session_by_mouse_leaves_its_events_its_hints_its_answers_and_it
     stages = [event.stage.value for event in events if isinstance(event, happened.StageEntered)]
     assert stages == [*STAGES, "over"]
     (consent,) = (event for event in events if isinstance(event, happened.ConsentGiven))
-    assert {"take_part", "store"} <= set(consent.purposes)
+    assert consent.purposes == ("share",)
     answered = {event.item for event in events if isinstance(event, happened.ResponseGiven)}
     assert answered == {item.id for asked in (plan.about_you, *plan.questionnaires) for item in asked.questions}
     assert isinstance(events[-1], happened.SessionEnded)

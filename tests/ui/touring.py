@@ -76,9 +76,7 @@ class Looking(UiDriver):
         """Look at the same screen with something that has to be done first."""
         screens = self._app.screens
         if moment == "consent":
-            screens.consent.show_missing(
-                tuple(each for each in screens.consent.offered if each in screens.consent.needed)
-            )
+            screens.consent.show_missing(screens.consent.offered)
         elif screens.kiosk.shown == "form" and not screens.form.given and "page" not in moment and "keys" not in moment:
             screens.form.show_missing(tuple(item.id for item in screens.form.shown))
         else:

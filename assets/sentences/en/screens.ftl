@@ -33,7 +33,7 @@ return-as-new = This code is not known here. You can play all the same, as a new
 ## Consent
 
 consent-required = needed
-consent-optional = up to you
+consent-optional = optional
 consent-agreed = agreed
 consent-missing = Please tick this box if you want to take part.
 # Over the boxes that are needed, as long as some of them have no tick: if there are no others, and if others follow.

@@ -34,7 +34,7 @@ return-as-new = Aquí no se conoce este código. Puedes jugar igualmente, como s
 ## Consent
 
 consent-required = necesario
-consent-optional = como prefieras
+consent-optional = opcional
 consent-agreed = de acuerdo
 consent-missing = Si quieres participar, marca esta casilla.
 # Over the boxes that are needed, as long as some of them have no tick: if there are no others, and if others follow.

@@ -34,7 +34,7 @@ return-as-new = Qui questo codice non è conosciuto. Puoi giocare lo stesso, com
 ## Consent
 
 consent-required = necessario
-consent-optional = come preferisci
+consent-optional = facoltativo
 consent-agreed = d'accordo
 consent-missing = Se vuoi partecipare, spunta questa casella.
 # Over the boxes that are needed, as long as some of them have no tick: if there are no others, and if others follow.

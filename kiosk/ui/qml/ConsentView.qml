@@ -19,18 +19,19 @@ PageFrame {
     // The page has the largest letters with which points and boxes are all seen at once: in both, how many gaps are above and
     // below the words of a box, and how many between boxes. Whether even the smallest are too large.
     readonly property bool upright: width < height
-    readonly property var sizes: upright ? [[38, 0.9, 0.9], [37, 0.75, 0.8], [36, 0.6, 0.7], [36, 0.45, 0.6], [34, 0.4, 0.5], [33, 0.35, 0.5], [31, 0.3, 0.4], [29, 0.25, 0.4]]
-        : [[35, 1, 0.8], [35, 0.85, 0.7], [34, 0.7, 0.65], [34, 0.5, 0.6], [32, 0.4, 0.5], [31, 0.3, 0.4], [29, 0.25, 0.4]]
+    readonly property var sizes: upright ? [[38, 1, 1], [38, 0.9, 0.9], [37, 0.75, 0.8], [36, 0.6, 0.7], [36, 0.45, 0.6], [34, 0.4, 0.5], [33, 0.35, 0.5], [31, 0.3, 0.4], [29, 0.25, 0.4]]
+        : [[38, 1, 0.9], [36, 1, 0.8], [35, 0.85, 0.7], [34, 0.7, 0.65], [34, 0.5, 0.6], [32, 0.4, 0.5], [31, 0.3, 0.4], [29, 0.25, 0.4]]
     readonly property int fitting: short ? sizes.findIndex(([letters, inside, apart]) => tall(letters, inside, apart) <= pane.room) : -1
     readonly property bool tight: fitting < 0
     readonly property var used: sizes[tight ? sizes.length - 1 : Math.min(fitting, sizes.length - 1)]
     // Large texts need the room themselves.
     readonly property real heads: Theme.size(Theme.textSize > 1.15 ? 38 : upright ? 46 : 44)
-    readonly property real tagSize: Theme.size(30)
-    // How high the word is that stands over the boxes that are up to the visitor, with the air above and below it.
-    readonly property real tagTall: Math.ceil(1.37 * tagSize) + 0.75 * Theme.gap
+    readonly property real pointSize: Theme.size(pointLetters(used[0]))
     readonly property real between: used[2] * Theme.gap
-    readonly property real pointGap: (Theme.textSize > 1.15 ? 0.4 : upright ? 0.6 : 0.5) * Theme.gap
+    readonly property real leastGap: (Theme.textSize > 1.15 ? 0.4 : upright ? 0.8 : 0.7) * Theme.gap
+    // What the page has left parts the points first, unless boxes may need it to say that they are missed.
+    readonly property real spare: roomy && needed === 0 ? Math.max(0, pane.room - tall(...used)) : 0
+    readonly property real pointGap: leastGap + Math.min(0.8 * Theme.gap, 0.4 * spare / Math.max(1, read.length))
     // How wide a drawing is for its letters.
     readonly property real badge: 1.7
     readonly property int needed: consent.purposes.filter(purpose => purpose.required).length
@@ -41,31 +42,29 @@ PageFrame {
     WordWidths {
         id: widths
     }
+    // How high what opens all of the text is below the points.
+    readonly property real asked: besides ? 0 : leastGap + 0.4 * Theme.gap + 1.37 * Theme.reading + 28 * Theme.unit
     // About how high points and boxes are, with letters of these sizes and so many gaps.
     function tall(letters: real, inside: real, apart: real): real {
         const size = Math.round(Theme.size(letters)), pointSize = Math.round(Theme.size(pointLetters(letters))), count = consent.purposes.length
         const points = read.map(each => Math.max(badge * pointSize, 1.48 * pointSize * linesOf(each.text, pointSize)))
         const boxes = consent.purposes.map(purpose => 2 * inside * Theme.gap + Math.max(64 * Theme.unit,
             lineOf(size) * widths.plainLines(purpose.text, size, column - 136 * Theme.unit)))
-        return sum(points) + (read.length - 1) * pointGap + Theme.gap + 1.37 * heads
-            + sum(boxes) + count * apart * Theme.gap + (count > needed ? tagTall : 0)
+        return sum(points) + (read.length - 1) * leastGap + asked + (needed > 0 ? Theme.gap + 1.37 * heads : 0)
+            + sum(boxes) + count * apart * Theme.gap + (count - needed) * Math.ceil(1.37 * Theme.size(28))
     }
     // On how many lines a point stands.
     function linesOf(text: string, size: int): int {
-        return widths.plainLines(text, size, column - inset(badge * size) - badge * size - apart(badge * size))
+        return widths.plainLines(text, size, column - badge * size - apart(badge * size))
     }
-    // Drawings stand above the squares of the boxes, and words above words: how far in a drawing is, which is so wide, and
-    // how far the words are from it.
-    function inset(drawing: real): real {
-        return Math.max(0, 56 * Theme.unit - drawing / 2)
-    }
+    // Words stand above the words of the boxes: how far they are from a drawing that is so wide.
     function apart(drawing: real): real {
-        return Math.max(0.9 * Theme.gap, 88 * Theme.unit + 0.9 * Theme.gap - inset(drawing) - drawing)
+        return Math.max(0.9 * Theme.gap, (needed > 0 ? 88 : 64) * Theme.unit + 0.9 * Theme.gap - drawing)
     }
     // Points have the letters of the boxes, or somewhat smaller ones where these spare them a line.
     function pointLetters(letters: real): real {
         const lines = less => sum(read.map(each => linesOf(each.text, Math.round(Theme.size(letters - less)))))
-        const tried = [0, 1, 2, 3, 4, 5].map(lines), least = Math.min(...tried)
+        const tried = [0, 1, 2, 3, 4, 5, 6].map(lines), least = Math.min(...tried)
         return letters - tried.indexOf(least)
     }
     // How high a line of a box is: letters and lines have whole pixels.
@@ -79,8 +78,8 @@ PageFrame {
     title: consent.title
     // A title that nearly leaves the button beside it its line does so with letters a little smaller.
     titleSize: {
-        const fits = Theme.pageTitle * (column - toggle.width - 1.2 * Theme.gap) / Math.max(1, widths.bold(title, Theme.pageTitle))
-        return fits >= 0.65 * Theme.pageTitle ? Math.min(Theme.pageTitle, Math.floor(fits)) : Theme.pageTitle
+        const fits = Theme.pageTitle * (column - (besides ? titled.width + 1.2 * Theme.gap : 0)) / Math.max(1, widths.bold(title, Theme.pageTitle))
+        return besides && fits >= 0.65 * Theme.pageTitle ? Math.min(Theme.pageTitle, Math.floor(fits)) : Theme.pageTitle
     }
     label: words["consent-agree"]
     other: words["consent-decline"]
@@ -105,32 +104,34 @@ PageFrame {
     }
     Keys.onPressed: event => pane.turn(event)
 
-    beside: toggle
-    besides: consent.points.length > 0
-
-    BigButton {
-        id: toggle
-        objectName: "read-more"
-        visible: view.besides
-        most: 0.45 * view.column
-        // Beside the title, as it is about the whole page: right after it on a wide screen, away from the steps of the visit;
-        // at the end of the line where it would nearly reach that.
-        readonly property real after: view.titleWidth + 40 * Theme.unit
-        readonly property bool follows: !view.upright && view.titleInOneLine && after + width + 2 * Theme.gap <= view.column
-        x: Theme.across(follows ? after : view.column - width, width, view.column)
+    // All of the text is asked for where what stands for it ends; with large letters, which need that room, at the title.
+    beside: titled
+    besides: consent.points.length > 0 && Theme.textSize > 1.15
+    Component {
+        id: more
+        BigButton {
+            objectName: "read-more"
+            most: 0.45 * view.column
+            quiet: true
+            font.pixelSize: Theme.reading
+            horizontalPadding: 34 * Theme.unit
+            verticalPadding: 14 * Theme.unit
+            // As wide whichever it says: the title beside it keeps its lines, and what is pressed its place.
+            least: Math.ceil(Math.max(...["consent-more", "consent-less"].map(name => widths.bold(view.words[name], font.pixelSize)))) + 2 + 2 * horizontalPadding
+            words: view.words[view.whole ? "consent-less" : "consent-more"]
+            onClicked: {
+                view.whole = !view.whole
+                pane.rewind()
+            }
+        }
+    }
+    Loader {
+        id: titled
+        active: view.besides
+        x: Theme.across(view.column - width, width, view.column)
         // Level with the title's letters, and above the content where it is higher than they are.
         y: Math.min(-height - Theme.gap, view.titleMiddle - height / 2)
-        quiet: true
-        font.pixelSize: Theme.reading
-        horizontalPadding: 34 * Theme.unit
-        verticalPadding: 14 * Theme.unit
-        // As wide whichever it says: the title beside it keeps its lines, and what is pressed its place.
-        least: Math.ceil(Math.max(...["consent-more", "consent-less"].map(name => widths.bold(view.words[name], font.pixelSize)))) + 2 + 2 * horizontalPadding
-        words: view.words[view.whole ? "consent-less" : "consent-more"]
-        onClicked: {
-            view.whole = !view.whole
-            pane.rewind()
-        }
+        sourceComponent: more
     }
     FocusScope {
         id: home
@@ -148,65 +149,76 @@ PageFrame {
             room: view.room - Math.max(0, view.way.over - 0.5 * Theme.gap) - (Theme.textSize > 1.15 ? 0 : (view.upright && Theme.textSize <= 1 ? 1 : 0.5) * Theme.gap)
             more: view.words["scroll-more"]
             // What there is to tick stands apart from what is read, as far as the page has room.
-            spacing: Math.max((view.consent.missing.length > 0 ? 0.4 : 0.5) * Theme.gap, Math.min((view.roomy ? 2 : view.upright ? 3.4 : 2.2) * Theme.gap, room - (view.short ? points.height : sheet.height) - boxes.height))
+            spacing: Math.max((view.consent.missing.length > 0 ? 0.4 : 0.5) * Theme.gap, Math.min((view.roomy ? 2 : view.upright ? 3.4 : 2.2) * Theme.gap, room - told.height - boxes.height))
 
             Column {
-                id: points
-                visible: view.short
+                id: told
                 width: pane.width
                 spacing: view.pointGap
                 Repeater {
                     model: view.short ? view.read : []
                     SignedLine {
                         required property var modelData
-                        readonly property real indent: view.roomy ? view.inset(badge) : 0
-                        x: Theme.across(indent, width, points.width)
-                        width: points.width - indent
+                        width: told.width
                         text: modelData.text
                         sign: modelData.sign
                         badge: (view.roomy ? view.badge : 2.1) * size
                         apart: view.roomy ? view.apart(badge) : Theme.gap
-                        size: view.roomy ? Theme.size(view.pointLetters(view.used[0])) : Theme.body
+                        size: view.roomy ? view.pointSize : Theme.body
                     }
                 }
-            }
-            Rectangle {
-                id: sheet
-                visible: !view.short
-                readonly property var texts: view.consent.paragraphs
-                // Short lines are read with less effort than long ones: in two columns where there is room.
-                readonly property bool halved: pane.width > 900 * Theme.unit && texts.length > 1
-                readonly property int first: halved ? view.half(texts) : texts.length
-                readonly property real column: halved ? (width - 4 * Theme.gap) / 2 : width - 2 * Theme.gap
-                width: pane.width
-                height: Math.max(left.height, halved ? right.height : 0) + 1.4 * Theme.gap
-                radius: Theme.radius
-                color: Theme.white
-                border { color: Theme.edge; width: 2 * Theme.unit }
-                Paragraphs {
-                    id: left
-                    x: Theme.across(Theme.gap, width, sheet.width)
-                    y: 0.7 * Theme.gap
-                    width: sheet.column
-                    texts: sheet.texts.slice(0, sheet.first)
-                    size: Theme.small
-                }
                 Rectangle {
-                    visible: sheet.halved
-                    x: (parent.width - width) / 2
-                    y: 0.9 * Theme.gap
-                    width: 2 * Theme.unit
-                    height: parent.height - 2 * y
-                    color: Theme.edge
+                    id: sheet
+                    visible: !view.short
+                    readonly property var texts: view.consent.paragraphs
+                    // Short lines are read with less effort than long ones: in two columns where there is room.
+                    readonly property bool halved: pane.width > 900 * Theme.unit && texts.length > 1
+                    readonly property int first: halved ? view.half(texts) : texts.length
+                    readonly property real column: halved ? (width - 4 * Theme.gap) / 2 : width - 2 * Theme.gap
+                    width: pane.width
+                    height: Math.max(left.height, halved ? right.height : 0) + 1.4 * Theme.gap
+                    radius: Theme.radius
+                    color: Theme.white
+                    border { color: Theme.edge; width: 2 * Theme.unit }
+                    Paragraphs {
+                        id: left
+                        x: Theme.across(Theme.gap, width, sheet.width)
+                        y: 0.7 * Theme.gap
+                        width: sheet.column
+                        texts: sheet.texts.slice(0, sheet.first)
+                        size: Theme.small
+                    }
+                    Rectangle {
+                        visible: sheet.halved
+                        x: (parent.width - width) / 2
+                        y: 0.9 * Theme.gap
+                        width: 2 * Theme.unit
+                        height: parent.height - 2 * y
+                        color: Theme.edge
+                    }
+                    Paragraphs {
+                        id: right
+                        visible: sheet.halved
+                        x: Theme.across(sheet.column + 3 * Theme.gap, width, sheet.width)
+                        y: 0.7 * Theme.gap
+                        width: sheet.column
+                        texts: sheet.texts.slice(sheet.first)
+                        size: Theme.small
+                    }
                 }
-                Paragraphs {
-                    id: right
-                    visible: sheet.halved
-                    x: Theme.across(sheet.column + 3 * Theme.gap, width, sheet.width)
-                    y: 0.7 * Theme.gap
-                    width: sheet.column
-                    texts: sheet.texts.slice(sheet.first)
-                    size: Theme.small
+                Item {
+                    visible: seated.active
+                    width: told.width
+                    height: seated.y + seated.height
+                    Loader {
+                        id: seated
+                        // It begins where the words do, a little apart from the last of them.
+                        readonly property real indent: view.short && view.roomy ? view.badge * view.pointSize + view.apart(view.badge * view.pointSize) : 0
+                        active: view.consent.points.length > 0 && !view.besides
+                        x: Theme.across(indent, width, told.width)
+                        y: view.roomy ? 0.4 * Theme.gap : 0
+                        sourceComponent: more
+                    }
                 }
             }
             Item {
@@ -237,43 +249,21 @@ PageFrame {
                             id: purpose
                             required property var modelData
                             required property int index
-                            // The first one that is up to the visitor says so for all of them.
-                            readonly property bool parts: view.grouped && index === view.needed
                             width: stack.width
-                            height: tick.y + tick.height
-                            PlainText {
-                                id: tag
-                                objectName: "tag"
-                                visible: purpose.parts
-                                x: Theme.across(0, width, parent.width)
-                                y: 0.4 * Theme.gap
-                                text: boxes.optional
-                                color: Theme.sea
-                                font { pixelSize: view.tagSize; bold: true }
-                                // Each box says it.
-                                Accessible.ignored: true
-                            }
-                            Rectangle {
-                                visible: purpose.parts
-                                x: Theme.across(tag.width + 0.75 * Theme.gap, width, parent.width)
-                                y: tag.y + 0.75 * view.tagSize - height / 2
-                                width: parent.width - tag.width - 0.75 * Theme.gap
-                                height: 3 * Theme.unit
-                                color: Theme.edge
-                            }
+                            height: tick.height
                             TickBox {
                                 id: tick
                                 objectName: "purpose-" + purpose.modelData.id
-                                y: purpose.parts ? view.tagTall : 0
                                 width: parent.width
                                 large: view.roomy
                                 font.pixelSize: !large ? Theme.reading : Theme.size(view.used[0])
-                                horizontalPadding: (large ? 24 : 17) * Theme.unit
+                                bare: headed && view.needed === 0 && !Theme.highContrast
+                                horizontalPadding: bare ? 0 : (large ? 24 : 17) * Theme.unit
                                 verticalPadding: (large ? view.used[1] : view.short ? 0.25 : 0.45) * Theme.gap
                                 words: purpose.modelData.text
                                 needed: purpose.modelData.required
                                 headed: view.grouped
-                                lighter: !needed && view.needed > 0
+                                lighter: !needed
                                 on: view.consent.ticks.includes(purpose.modelData.id)
                                 note: headed && !needed ? boxes.optional : view.words[needed ? "consent-required" : "consent-optional"]
                                 agreed: headed ? "" : view.words["consent-agreed"]

@@ -13,6 +13,8 @@ Choosable {
     property bool headed: false
     // Whether it may be left out, beside others that are needed.
     property bool lighter: false
+    // Whether it has no ground: a line like those above it, with its box in the place of their drawings.
+    property bool bare: false
     // What stands there instead, once it is ticked.
     property string agreed: ""
     property string warning: ""
@@ -21,7 +23,7 @@ Choosable {
     // On a page with much height.
     property bool large: false
 
-    horizontalPadding: (large ? 28 : 17) * Theme.unit
+    horizontalPadding: bare ? 0 : (large ? 28 : 17) * Theme.unit
     font.pixelSize: large ? Theme.size(33) : Theme.reading
     Accessible.role: Accessible.CheckBox
     Accessible.name: words
@@ -30,11 +32,11 @@ Choosable {
     background: Rectangle {
         radius: Theme.radius
         // What is ticked is darker; the pointer over it changes the edge alone.
-        color: !box.on ? (box.lighter && !box.headed ? Theme.white : Theme.touchable) : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, box.headed ? 0.06 : 0.14))
+        color: box.bare ? "transparent" : !box.on ? (box.lighter ? Theme.white : Theme.touchable) : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, box.headed ? 0.06 : 0.14))
         border {
             color: box.warning ? Theme.deepAmber : box.hovered || box.on || Theme.highContrast || !box.lighter ? Theme.sea : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.45))
             // Below a heading those that are to be ticked have a strong one until they are.
-            width: (box.warning || box.hovered ? 4 : !box.headed || Theme.highContrast ? box.on ? 4 : 2 : box.on || box.lighter ? 2 : 4) * Theme.unit
+            width: box.bare ? 0 : (box.warning || box.hovered ? 4 : !box.headed || Theme.highContrast ? box.on ? 4 : 2 : box.on || box.lighter ? 2 : 4) * Theme.unit
         }
         FocusRing {
             around: box
@@ -76,7 +78,7 @@ Choosable {
             height: width
             radius: 0.2 * width
             color: box.on ? Theme.sea : Theme.white
-            border { color: box.warning ? Theme.deepAmber : Theme.sea; width: (box.warning ? 6 : 4) * Theme.unit }
+            border { color: box.warning ? Theme.deepAmber : Theme.sea; width: (box.warning || box.bare && box.hovered ? 6 : 4) * Theme.unit }
             ClippedShape {
                 anchors.fill: parent
                 visible: box.on
@@ -97,6 +99,17 @@ Choosable {
             x: Theme.across(mark.width + parts.after, width, parts.width)
             y: (parts.height - height) / 2
             width: parts.room - (parts.beside ? parts.noteWidth + parts.clear : 0)
+            // What no heading says is said over the words.
+            PlainText {
+                objectName: "tag"
+                width: parent.width
+                visible: box.headed && !box.needed
+                text: box.note
+                horizontalAlignment: LayoutMirroring.enabled ? Text.AlignLeft : undefined
+                color: Theme.sea
+                font { pixelSize: Theme.size(28); bold: true }
+                Accessible.ignored: true
+            }
             Balanced {
                 width: parent.width
                 text: box.words

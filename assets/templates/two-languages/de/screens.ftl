@@ -33,7 +33,7 @@ return-as-new = Diesen Code kennen wir hier nicht. Du kannst trotzdem spielen, w
 ## Consent
 
 consent-required = nötig
-consent-optional = wie du möchtest
+consent-optional = freiwillig
 consent-agreed = einverstanden
 consent-missing = Bitte kreuze das an, wenn du teilnehmen möchtest.
 # Over the boxes that are needed, as long as some of them have no tick: if there are no others, and if others follow.
