@@ -69,6 +69,8 @@ PageFrame {
     }
 
     WordWidths {
+        // A study's questions are the same for all visitors, and a long form has many.
+        mostKept: 2000
         id: wordWidths
     }
     PageShape {

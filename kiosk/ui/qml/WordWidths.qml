@@ -20,9 +20,9 @@ QtObject {
     // Each text is measured once, although many sizes are tried: of a text its width, and those of its words.
     readonly property var boldTexts: new Map()
     readonly property var plainTexts: new Map()
-    // Each page measures for itself, and sees codes, numbers and sentences of every visitor: more than one page has at once
-    // are not kept, or the kiosk would grow for hundreds of visits.
-    readonly property int mostKept: 300
+    // Each page measures for itself, and sees codes, numbers and sentences of every visitor: more than it has at once are
+    // not kept, or the kiosk would grow for hundreds of visits.
+    property int mostKept: 100
 
     function measured(text: string, letters: FontMetrics, kept: var): var {
         let found = kept.get(text)
