@@ -566,7 +566,9 @@ def test_a_command_to_type_elsewhere_is_as_dark_as_what_to_do_and_in_letters_of_
 
 
 @pytest.mark.parametrize("size", [WIDE, UPRIGHT])
-def test_what_is_to_be_done_has_an_outline_and_what_can_be_done_has_none(window: Window, size: tuple[int, int]) -> None:
+def test_all_that_can_be_pressed_has_one_edge_and_what_can_be_done_has_the_tint_of_answers(
+    window: Window, size: tuple[int, int]
+) -> None:
     show(window, "en", size, health=with_the_copy("en"), choices=busy_day("en")["choices"])
     shown = {item.objectName(): item for item in items(window.shown.contentItem()) if item.isVisible()}
 
@@ -577,8 +579,16 @@ def test_what_is_to_be_done_has_an_outline_and_what_can_be_done_has_none(window:
     answers = {edge(name) for name in ("action-backup", *(item.objectName() for item in asking(window)))}
     assert len(answers) == 1
     assert min(answers)[0] > 0
-    assert {edge(name)[0] for name in ("action-again", "action-mute", "break-5")} == {0}
+    assert {edge(name) for name in ("action-again", "action-mute", "break-5")} == answers
     assert edge("action-end")[0] == min(answers)[0], "what ends a session weighs no more than what is to be done"
+    assert edge("action-end")[1] not in {colour for _, colour in answers}
+    picture = window.shown.grabWindow()
+    tints = {
+        name: background(picture, place(shown[name])).name() for name in ("action-again", "action-mute", "break-5")
+    }
+    assert len(set(tints.values())) == 1
+    assert tints["break-5"] != background(picture, place(shown["action-end"])).name()
+    assert tints["break-5"] != background(picture, place(shown["action-backup"])).name()
 
 
 @pytest.mark.parametrize("size", [WIDE, UPRIGHT])
@@ -590,7 +600,7 @@ def test_the_switch_says_its_name_alone(window: Window, size: tuple[int, int]) -
 
 
 @pytest.mark.parametrize(("size", "language"), in_turn(LAYOUTS))
-def test_words_of_buttons_stand_in_their_middle_below_their_sign_or_beside_it(
+def test_words_of_buttons_stand_in_their_middle_behind_their_sign(
     window: Window, language: str, size: tuple[int, int]
 ) -> None:
     show(window, language, size, health=with_the_copy(language))
@@ -640,7 +650,7 @@ def test_the_first_page_needs_no_scrolling_while_a_visitor_plays(
 
 
 @pytest.mark.parametrize(("copies", "under_way", "size", "language"), in_turn([False, True], [False, True], LAYOUTS))
-def test_actions_stand_in_tiles_then_a_break_then_apart_what_ends_the_session(
+def test_actions_are_of_one_height_on_one_grid_and_the_last_ends_the_session(
     window: Window, language: str, size: tuple[int, int], *, copies: bool, under_way: bool
 ) -> None:
     busy = busy_day(language)
@@ -655,16 +665,23 @@ def test_actions_stand_in_tiles_then_a_break_then_apart_what_ends_the_session(
     first, silence, *others = found
     names = [*([] if copies else ["action-backup"]), *(["action-end"] if under_way else [])]
     assert [item.objectName() for item in others] == names
-    # What is done all day: two equal tiles.
+    # What is done all day stands side by side.
     assert level(first) == level(silence)
     assert (first.width(), first.height()) == (silence.width(), silence.height())
     assert first.width() < 0.5 * actions.width()
     assert [words_of(text) for text in texts(actions) if is_broken(text)] == []
-    # The answers to when one is back have one row, lower than the tiles.
+    # The lengths of a break have one row, and all rows begin and end where the list does.
     answers = [item for item in items(actions) if item.objectName().startswith("break-")]
     assert len(answers) == len(breaks)
     assert len({(level(item), item.height()) for item in answers}) == 1
-    assert answers[0].height() < first.height()
+    rows: dict[float, list[QRectF]] = {}
+    for item in [*found, *answers]:
+        rows.setdefault(level(item), []).append(item.mapRectToScene(item.boundingRect()))
+    column = actions.mapRectToScene(actions.boundingRect())
+    for row in rows.values():
+        assert min(rect.left() for rect in row) == pytest.approx(column.left(), abs=1)
+        assert max(rect.right() for rect in row) == pytest.approx(column.right(), abs=1)
+    assert len({item.height() for item in [*found, *answers]}) == 1
     last = others[0] if not copies else first
     assert level(answers[0]) > level(last) + last.height()
     # The heading of the break begins where its answers do, and is as bold as they are.
@@ -675,15 +692,14 @@ def test_actions_stand_in_tiles_then_a_break_then_apart_what_ends_the_session(
         text.property("font").bold() for text in [heading, *(each for item in answers for each in texts(item))]
     } == {True}
     if under_way:
-        # What ends the session is further from the break than that is from the rest, and no wider than its words.
+        # The break is as far from the rest as from what ends the session, which is the last.
         end, apart = others[-1], level(heading) - level(last) - last.height()
-        assert level(end) - level(answers[0]) - answers[0].height() > apart
-        assert end.width() <= end.property("implicitWidth") + 1
-        assert end.height() < first.height()
+        assert level(end) - level(answers[0]) - answers[0].height() == pytest.approx(apart, abs=1)
+        assert level(end) + end.height() == pytest.approx(column.bottom(), abs=1)
 
 
 @pytest.mark.parametrize(("matters", "size", "language"), in_turn([0, 3], [WIDE, (1280, 800), (1366, 768)]))
-def test_the_last_card_of_a_wide_page_ends_level_with_what_ends_the_session(
+def test_the_card_beside_the_actions_ends_level_with_what_ends_the_session(
     window: Window, language: str, size: tuple[int, int], matters: int
 ) -> None:
     health = with_the_copy(language)
@@ -691,7 +707,12 @@ def test_the_last_card_of_a_wide_page_ends_level_with_what_ends_the_session(
     root = window.shown.contentItem()
     (checks,), end = of_kind(root, "PanelHealth"), find_item(root, "action-end")
     assert end is not None
-    assert level(checks) + checks.height() == pytest.approx(level(end) + end.height(), abs=ROUNDED)
+    beside = checks if matters == 0 else sole(of_kind(root, "PanelNotice"))
+    assert level(beside) + beside.height() == pytest.approx(level(end) + end.height(), abs=ROUNDED)
+    # The day stands below the notice and the actions then, as wide as both.
+    (today,) = of_kind(root, "PanelToday")
+    assert (checks.width() == pytest.approx(today.width(), abs=1)) == (matters > 1)
+    assert level(checks) + checks.height() <= level(today) + today.property("seen")
 
 
 @pytest.mark.parametrize(("size", "language"), in_turn(LAYOUTS))

@@ -1,4 +1,4 @@
-// What can be done at once: in two tiles what is done all day, then a break, and apart from them what ends a session.
+// What can be done at once, in buttons of one height: what is done all day, a break, and last what ends a session.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -15,7 +15,7 @@ Column {
     // How large their words are where they fit, and how high the list is at least.
     required property real size
     property real least: 0
-    // How far the cards of the page are from each other.
+    // How far the cards of the page are from each other, and the buttons too.
     required property real space
     readonly property var words: panel.words
     readonly property var choices: panel.choices
@@ -27,29 +27,36 @@ Column {
 
     // Whole pixels, so that all rows end in line.
     readonly property real across: Math.floor(width)
-    readonly property real each: Math.floor((across - (daily.length - 1) * between) / daily.length)
-    readonly property real between: Math.round(12 * Theme.unit)
-    readonly property real edge: Math.round(Theme.gap)
+    readonly property real between: Math.round(space)
+    // Side by side, unless the words are large.
+    readonly property int pairs: normal ? daily.length : 1
+    readonly property real each: Math.floor((across - (pairs - 1) * between) / pairs)
+    readonly property real edge: Math.round(0.8 * Theme.gap)
     readonly property real lettering: lettered(size)
-    // What a page has left is shared by the tiles and by the air: before the break, and most of it before the end.
+    readonly property int rows: daily.length / pairs + (copying === "" ? 0 : 1) + (underWay ? 1 : 0) + (offered.length === 0 ? 0 : Math.ceil(offered.length / besides(lettering)))
+    // What is left goes to all rows alike, and then to the air around the break.
     readonly property real free: Math.max(0, least - deep(size))
-    readonly property real tall: tileDeep(lettering) + Math.floor(Math.min((wide ? 0.48 : 0.4) * free, Theme.gap + 4.2 * lettering))
-    readonly property real low: lowOf(lettering) + Math.floor(Math.min(0.08 * free, 0.6 * lettering))
-    readonly property real apart: space + Math.floor(Math.min(0.17 * free, 2.5 * Theme.gap))
-    readonly property real last: Math.round(1.3 * space)
-    readonly property real below: Math.round(10 * Theme.unit)
+    readonly property real grown: Math.floor(Math.min(free / rows, mostGrown))
+    readonly property real mostGrown: 40 * Theme.unit
+    readonly property real low: lowOf(lettering) + grown
+    readonly property real apart: between + (offered.length === 0 ? 0 : Math.floor(Math.min(0.5 * (free - rows * grown), 5 * between)))
+    // How high the list is before it looks loose.
+    readonly property real most: Math.floor(deep(size) + rows * mostGrown + between)
+    readonly property real below: Math.round(8 * Theme.unit)
 
     // All words have one line, where that does not make them small.
     function lettered(size: real): real {
-        const needs = daily.map(text => (each - 2 * edge) / (wordWidths.bold(text, 1) + 0.1))
-        return normal ? Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(size, ...needs))) : size
+        const needs = daily.map(text => (each - 2 * edge) / (1.02 * wordWidths.bold(text, 1) + 2))
+        return normal ? Math.floor(Math.max(Math.min(size, 1.1 * Theme.dense), Math.min(size, ...needs))) : size
     }
     function lowOf(letters: real): real {
-        return Math.ceil(Math.max((wide ? 72 : 84) * Theme.unit, 1.4 * letters + 18 * Theme.unit))
+        return Math.ceil(Math.max(84 * Theme.unit, 1.4 * letters + 18 * Theme.unit))
     }
-    function tileDeep(letters: real): real {
-        const lines = Math.max(1, ...daily.map(text => wordWidths.lines(text, letters, each - 2 * edge)))
-        return Math.ceil((2.55 + 1.37 * lines) * letters + 0.85 * Theme.gap)
+    // How high what is done all day is: one row, or one below the other.
+    function dailyDeep(letters: real): real {
+        const lines = text => wordWidths.lines(text, letters, each - 2 * edge - 2 * letters)
+        const high = daily.map(text => Math.max(lowOf(letters), 1.4 * lines(text) * letters + 18 * Theme.unit))
+        return pairs > 1 ? Math.max(...high) : high.reduce((sum, one) => sum + one + between, -between)
     }
     function titled(letters: real): real {
         return Math.ceil(1.4 * letters * wordWidths.lines(words["console-break"] ?? "", letters, across))
@@ -62,13 +69,10 @@ Column {
     // How high they are at least if their words are written so large.
     function deep(size: real): real {
         const letters = lettered(size), row = lowOf(letters), rows = Math.ceil(offered.length / besides(letters))
-        const copies = copying === "" ? 0 : between + Math.max(row, 1.4 * letters * wordWidths.lines(copying, letters, across - 2 * edge - 2 * letters) + 18 * Theme.unit)
-        const asked = rows === 0 ? 0 : space + titled(letters) + below + rows * (row + between) - between
-        const ends = underWay ? last + Math.max(row, 1.4 * letters * wordWidths.lines(words["console-abort"] ?? "", letters, across - 2 * edge - 2 * letters) + 18 * Theme.unit) : 0
-        return Math.ceil(tileDeep(letters) + copies + asked + ends)
+        const copied = copying === "" ? 0 : between + Math.max(row, 1.4 * letters * wordWidths.lines(copying, letters, across - 2 * edge - 2 * letters) + 18 * Theme.unit)
+        const rested = offered.length === 0 ? 0 : between + titled(letters) + below + rows * row + (rows - 1) * between
+        return Math.ceil(dailyDeep(letters) + copied + rested + (underWay ? between + row : 0))
     }
-
-    // Whether the button of an action stands here.
     function has(action: string): bool {
         return !answered.includes(action)
     }
@@ -85,20 +89,21 @@ Column {
     Accessible.name: words["console-actions"]
 
     component Action: PanelButton {
-        least: stacked ? actions.tall : actions.low
-        width: stacked ? actions.each : actions.across
+        least: actions.low
+        width: actions.across
         horizontalPadding: actions.edge
         plain: true
         ringInPlace: true
         font { pixelSize: actions.lettering; bold: true }
     }
 
-    Row {
+    Grid {
+        columns: actions.pairs
         spacing: actions.between
 
         // While a visitor is there, the voice is theirs.
         Action {
-            stacked: true
+            width: actions.each
             objectName: "test-voice"
             visible: !actions.underWay
             enabled: !actions.choices.muted
@@ -107,7 +112,7 @@ Column {
             onClicked: actions.panel.wish("test_voice", "")
         }
         Action {
-            stacked: true
+            width: actions.each
             objectName: "action-again"
             visible: actions.underWay
             words: actions.words["console-repeat"]
@@ -115,7 +120,7 @@ Column {
             onClicked: actions.panel.wish("repeat", "")
         }
         Action {
-            stacked: true
+            width: actions.each
             id: mute
             objectName: "action-mute"
             visible: actions.has("mute")
@@ -173,27 +178,19 @@ Column {
             onPicked: value => actions.panel.wish("break", value)
         }
     }
-    // Last, and apart: it takes a game from a visitor.
     Item {
         visible: end.visible
         width: 1
-        height: Math.max(actions.last, actions.least - actions.above - end.height)
+        height: actions.apart
     }
+    // Last: it takes a game from a visitor.
     Action {
         id: end
-        width: Math.min(actions.across, Math.ceil(implicitWidth))
-        horizontalPadding: 2 * Theme.gap
-        x: Math.floor((actions.across - width) / 2)
         objectName: "action-end"
         visible: actions.underWay
-        plain: false
         grave: true
-        ground: "transparent"
-        least: actions.lowOf(actions.lettering)
         words: actions.words["console-abort"]
         drawing: "M12.5 4 H4.5 V20 H12.5 M9.5 12 H21 M16.5 7.5 L21 12 L16.5 16.5"
         onClicked: actions.panel.wish("abort", "")
     }
-    // How high all is that stands before the end.
-    readonly property real above: tall + (copying === "" ? 0 : between + backup.height) + (offered.length === 0 ? 0 : apart + titled(lettering) + below + breaks.height)
 }

@@ -18,20 +18,18 @@ Button {
     property bool ringInPlace: false
     // What takes something from a visitor.
     property bool grave: false
-    // What is there all day, and weighs less than what is to be done: a tint, and no edge.
+    // What is there all day, and weighs less than what is to be done: a tint, as the visitor's answers have.
     property bool plain: false
     property real least: 68 * Theme.unit
     readonly property color tone: grave ? Theme.deepAmber : Theme.sea
     property bool solid: chosen || (filled && enabled)
     // What lies below its words while it is not solid.
-    property color ground: !plain ? Theme.paper : enabled ? Theme.resting : "transparent"
-    // A low one is round at its ends, and a tile has the corners of the visitor's tiles.
-    readonly property real corner: Math.min(height / 2, (stacked ? 44 : 60) * Theme.unit)
+    property color ground: !plain ? Theme.paper : !enabled ? Theme.resting : grave && !Theme.highContrast ? Qt.tint(Theme.white, Qt.alpha(tone, 0.08)) : Theme.touchable
+    readonly property real corner: Math.min(height / 2, 60 * Theme.unit)
     property int alignment: Text.AlignHCenter
-    // The lines of a small drawing before its words, on a square of 24; none without. In a tile it stands above them.
+    // The lines of a small drawing before its words, on a square of 24; none without.
     property string drawing: ""
-    property bool stacked: false
-    property real sign: drawing === "" ? 0 : stacked ? Math.max(2.2 * font.pixelSize, Math.min(3 * font.pixelSize, 0.36 * least)) : 1.45 * font.pixelSize
+    property real sign: drawing === "" ? 0 : 1.45 * font.pixelSize
     property color front: solid ? Theme.white : enabled ? tone : Theme.faintInk
 
     width: Math.min(Math.ceil(implicitWidth), parent?.width ?? Infinity)
@@ -56,12 +54,11 @@ Button {
 
     contentItem: Item {
         id: parts
-        readonly property real before: button.sign > 0 && !button.stacked ? button.sign + 0.5 * button.font.pixelSize : 0
-        readonly property real above: button.sign > 0 && button.stacked ? button.sign + 0.35 * button.font.pixelSize : 0
+        readonly property real before: button.sign > 0 ? button.sign + 0.5 * button.font.pixelSize : 0
         readonly property real start: Math.max(0, (width - before - needed) / 2)
         readonly property real needed: wide(button.words, natural.font)
         implicitWidth: before + needed
-        implicitHeight: above > 0 ? above + letters.implicitHeight : Math.max(button.sign, letters.implicitHeight)
+        implicitHeight: Math.max(button.sign, letters.implicitHeight)
         // What is measured depends on the font, which is named for that reason alone.
         function wide(text: string, _font: font): real {
             return Math.ceil(natural.advanceWidth(text)) + 1
@@ -72,17 +69,17 @@ Button {
         }
         Drawing {
             visible: button.drawing !== ""
-            x: (button.stacked ? parts.width / 2 : parts.start + button.sign / 2) - width / 2
-            y: (button.stacked ? (parts.height - parts.implicitHeight + button.sign) / 2 : parts.height / 2) - height / 2
+            x: parts.start + (button.sign - width) / 2
+            y: (parts.height - height) / 2
             scale: button.sign / 24
             path: button.drawing
             ink: button.front
         }
         Balanced {
             id: letters
-            x: button.drawing === "" || button.stacked ? 0 : parts.start + parts.before
+            x: button.drawing === "" ? 0 : parts.start + parts.before
             // Level with those of its neighbours, however many lines they have.
-            y: (parts.height + parts.above - height) / 2
+            y: (parts.height - height) / 2
             width: parts.width - x - (x > 0 ? parts.start : 0)
             text: button.words
             font: button.font
@@ -97,7 +94,7 @@ Button {
         radius: button.corner
         color: button.solid ? (button.filled && button.hovered ? Theme.lightSea : Theme.sea) : button.down ? Theme.sand : button.hovered ? Theme.white : button.ground
         // What cannot be pressed now has a pale edge.
-        border { color: button.enabled ? button.tone : Theme.edge; width: button.plain && button.enabled && !Theme.highContrast ? 0 : 2 * Theme.unit }
+        border { color: button.enabled ? button.tone : Theme.edge; width: 2 * Theme.unit }
         FocusRing {
             around: button
             reach: (button.ringInPlace ? 0 : 5) * Theme.unit

@@ -12,7 +12,9 @@ PanelSection {
     required property bool allWell
     readonly property var words: panel.words
     readonly property var lines: panel.health.lines
-    readonly property int columns: Theme.textSize > 1.15 || lines.length < 2 ? 1 : 2
+    // Whether it has all of a wide page: the checks stand in one row then, or in two.
+    property bool abreast: false
+    readonly property int columns: Theme.textSize > 1.15 || lines.length < 2 ? 1 : !abreast ? 2 : lines.length > 4 ? 3 : lines.length
     readonly property int rows: Math.ceil(lines.length / columns)
     readonly property real gutter: Math.round(1.6 * Theme.gap)
     readonly property real room: width - 2 * inset
@@ -25,13 +27,13 @@ PanelSection {
     function column(width: real): real {
         return Math.floor((width - 2 * inset - (columns - 1) * gutter) / columns)
     }
-    function naming(size: real): real {
-        return Math.min(0.55 * column(width), 1.02 * Math.max(0, ...lines.map(line => wordWidths.bold(line.name, day.share * size))) + 0.3 * size)
+    // How wide the names are: all alike, except in a single row, where what they leave is for the words behind.
+    function naming(size: real, alone: var): real {
+        return Math.min(0.55 * column(width), 1.02 * Math.max(0, ...(rows > 1 ? lines : [alone]).map(line => wordWidths.bold(line.name, day.share * size))) + 0.3 * size)
     }
     // How high each row is where nothing is left.
     function row(at: int, size: real): real {
-        const room = column(width) - 1.25 * day.share * size - naming(size) - 2 * step
-        const each = lines.slice(at * columns, (at + 1) * columns).map(line => wordWidths.plainLines(line.message, day.share * size, room))
+        const each = lines.slice(at * columns, (at + 1) * columns).map(line => wordWidths.plainLines(line.message, day.share * size, column(width) - 1.25 * day.share * size - naming(size, line) - 2 * step))
         return Math.max(1, ...each) * Math.ceil(1.4 * day.share * size)
     }
     function bare(size: real): real {
@@ -99,7 +101,7 @@ PanelSection {
                 words: health.words
                 width: health.column(health.width)
                 size: day.share * health.size
-                named: health.naming(health.size)
+                named: health.naming(health.size, modelData)
             }
         }
     }

@@ -12,6 +12,8 @@ Rectangle {
     required property real size
     // How much higher each row is than it needs to be.
     property real more: 0
+    // How high it is at least, where it ends with the actions beside it.
+    property real lowest: 0
     readonly property var matters: panel.health.matters
     // The actions that answer one of them: their buttons stand here, and not among the others.
     readonly property var answered: matters.map(matter => matter.action ?? "").filter(action => action !== "")
@@ -164,7 +166,7 @@ Rectangle {
             width: Math.min(notice.answering, row.width - (notice.aside ? 0 : notice.mark))
             enabled: row.action !== "backup" || notice.panel.choices.backup === ""
             least: notice.least
-            ground: row.open ? Theme.resting : Theme.white
+            ground: row.open ? Theme.touchable : Theme.white
             horizontalPadding: notice.padding
             words: row.matter?.button ?? ""
             drawing: notice.signs[row.action || "how"] ?? ""
@@ -181,7 +183,7 @@ Rectangle {
     }
 
     // Whole pixels, so that the cards below it end level with the one beside them.
-    height: Math.ceil(rows.height + 2 * above)
+    height: Math.ceil(Math.max(lowest, rows.height + 2 * above))
     radius: Theme.radius
     color: Theme.amber
 

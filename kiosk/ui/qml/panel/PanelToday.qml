@@ -24,12 +24,16 @@ Item {
     readonly property real side: Math.floor(wide ? width * 0.38 : width)
     readonly property real main: wide ? width - side - space : width
     readonly property real below: now.height + space
+    // With several matters, the notice is about as high as the actions beside it, and the day stands below both.
+    readonly property bool level: wide && tabled && warned && panel.alarms.length === 0 && panel.records.resumable.length === 0
+        && notice.deep(usual) > 0.8 * actions.deep(usual) && now.deep(usual) + space + Math.max(notice.deep(usual), actions.deep(usual)) + space + 10 * usual <= seen
     readonly property alias way: now.way
     readonly property bool warned: notice.matters.length > 0
     readonly property bool allWell: !warned && panel.alarms.every(alarm => !alarm.holds)
     // What a page has left is shared among its parts; the last of them takes the rest.
     readonly property real free: Math.floor(seen - below)
-    readonly property real spare: !tabled ? 0 : Math.max(0, free - told(size) - (wide ? 0 : space + done(size)))
+    readonly property real spare: !tabled ? 0 : Math.max(0, free - (level ? both(size) : told(size) + (wide ? 0 : space + done(size))))
+    readonly property real beside: Math.max(notice.deep(size), Math.min(actions.most, Math.max(notice.deep(size), acting) + Math.floor(0.65 * spare)))
     readonly property real aired: wide ? 0 : Math.floor(Math.min(0.8 * Theme.gap, 0.15 * spare))
     readonly property real acting: actions.deep(size)
 
@@ -53,7 +57,10 @@ Item {
     }
     // How high the page is at least if it is written so large: the words at the left, and the actions.
     function deep(size: real): real {
-        return now.deep(size) + space + (wide ? Math.max(told(size), done(size)) : told(size) + space + done(size))
+        return now.deep(size) + space + (level ? both(size) : wide ? Math.max(told(size), done(size)) : told(size) + space + done(size))
+    }
+    function both(size: real): real {
+        return Math.max(notice.deep(size), done(size)) + space + checked(size)
     }
     function told(size: real): real {
         const line = Math.ceil(1.4 * size)
@@ -97,7 +104,8 @@ Item {
             id: notice
             width: parent.width
             size: today.size
-            more: Math.floor(Math.min(0.6 * Theme.gap, 0.2 * today.spare / Math.max(1, matters.length)))
+            more: today.level ? Math.floor((today.beside - deep(today.size)) / Math.max(1, matters.length)) : Math.floor(Math.min(0.6 * Theme.gap, 0.2 * today.spare / Math.max(1, matters.length)))
+            lowest: today.level ? today.beside : 0
             panel: today.panel
             visible: today.warned
         }
@@ -117,19 +125,19 @@ Item {
             panel: today.panel
             wide: today.wide
             size: today.size
-            // Beside the others it ends where the page does, so that what stands at its foot is seen.
-            least: today.panel.records.resumable.length > 0 ? 0 : today.wide ? today.free : today.acting + Math.floor(Math.min(0.4 * today.acting, 0.4 * today.spare))
+            least: today.panel.records.resumable.length > 0 ? 0 : today.level ? today.beside : today.wide ? Math.min(today.free, Math.max(today.told(today.size), actions.most)) : today.acting + Math.floor(Math.min(0.4 * today.acting, 0.4 * today.spare))
         }
         PanelResume { width: parent.width; panel: today.panel; size: today.size }
     }
     PanelHealth {
         id: health
-        y: today.wide ? left.y + left.height + (left.height > 0 ? today.space : 0) : right.y + right.height + today.space + today.aired
-        width: today.main
+        y: today.level ? Math.max(left.y + left.height, right.y + right.height) + today.space : today.wide ? left.y + left.height + (left.height > 0 ? today.space : 0) : right.y + right.height + today.space + today.aired
+        width: today.level ? today.width : today.main
+        abreast: today.level
         panel: today.panel
         size: today.quieter(today.size)
         allWell: today.allWell
         // Beside the actions it ends where they do.
-        most: today.tabled ? Math.floor((today.wide ? Math.min(today.seen, right.y + right.height) : today.seen - 1) - y) : 0
+        most: today.tabled ? Math.floor((today.wide && !today.level ? Math.min(today.seen, right.y + right.height) : today.seen - 1) - y) : 0
     }
 }
