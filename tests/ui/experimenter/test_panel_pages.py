@@ -698,7 +698,7 @@ def test_actions_are_of_one_height_on_one_grid_and_the_last_ends_the_session(
         assert level(end) + end.height() == pytest.approx(column.bottom(), abs=1)
 
 
-@pytest.mark.parametrize(("matters", "size", "language"), in_turn([0, 3], [WIDE, (1280, 800), (1366, 768)]))
+@pytest.mark.parametrize(("matters", "size", "language"), in_turn([0, 1, 2, 3], [WIDE, (1280, 800), (1366, 768)]))
 def test_the_card_beside_the_actions_ends_level_with_what_ends_the_session(
     window: Window, language: str, size: tuple[int, int], matters: int
 ) -> None:
@@ -707,11 +707,11 @@ def test_the_card_beside_the_actions_ends_level_with_what_ends_the_session(
     root = window.shown.contentItem()
     (checks,), end = of_kind(root, "PanelHealth"), find_item(root, "action-end")
     assert end is not None
-    beside = checks if matters == 0 else sole(of_kind(root, "PanelNotice"))
+    beside = sole(of_kind(root, "PanelNotice")) if matters > 2 else checks
     assert level(beside) + beside.height() == pytest.approx(level(end) + end.height(), abs=ROUNDED)
     # The day stands below the notice and the actions then, as wide as both.
     (today,) = of_kind(root, "PanelToday")
-    assert (checks.width() == pytest.approx(today.width(), abs=1)) == (matters > 1)
+    assert (checks.width() == pytest.approx(today.width(), abs=1)) == (matters > 2)
     assert level(checks) + checks.height() <= level(today) + today.property("seen")
 
 

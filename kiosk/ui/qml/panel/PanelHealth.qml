@@ -22,7 +22,7 @@ PanelSection {
     // How high it may be: what it has left is shared among its rows, as long as they still stand together.
     property real most: 0
     readonly property real spare: Math.max(0, Math.min(limit, (most - bare(size)) / (rows + (allWell ? 1.5 : 1))))
-    readonly property real limit: (Theme.upright ? 2 : 3) * Theme.gap
+    readonly property real limit: 3 * Theme.gap
     readonly property real step: 10 * Theme.unit
     function column(width: real): real {
         return Math.floor((width - 2 * inset - (columns - 1) * gutter) / columns)

@@ -26,7 +26,7 @@ Item {
     readonly property real below: now.height + space
     // With several matters, the notice is about as high as the actions beside it, and the day stands below both.
     readonly property bool level: wide && tabled && warned && panel.alarms.length === 0 && panel.records.resumable.length === 0
-        && notice.deep(usual) > 0.8 * actions.deep(usual) && now.deep(usual) + space + Math.max(notice.deep(usual), actions.deep(usual)) + space + 10 * usual <= seen
+        && notice.deep(usual) > 0.5 * actions.deep(usual) && now.deep(usual) + space + Math.max(notice.deep(usual), actions.deep(usual)) + space + 10 * usual <= seen
     readonly property alias way: now.way
     readonly property bool warned: notice.matters.length > 0
     readonly property bool allWell: !warned && panel.alarms.every(alarm => !alarm.holds)
@@ -125,7 +125,7 @@ Item {
             panel: today.panel
             wide: today.wide
             size: today.size
-            least: today.panel.records.resumable.length > 0 ? 0 : today.level ? today.beside : today.wide ? Math.min(today.free, Math.max(today.told(today.size), actions.most)) : today.acting + Math.floor(Math.min(0.4 * today.acting, 0.4 * today.spare))
+            least: today.panel.records.resumable.length > 0 ? 0 : today.level ? today.beside : today.wide ? Math.min(today.free, Math.max(today.told(today.size) + notice.more * notice.matters.length, actions.most)) : today.acting + Math.floor(Math.min(0.4 * today.acting, 0.4 * today.spare))
         }
         PanelResume { width: parent.width; panel: today.panel; size: today.size }
     }
