@@ -30,8 +30,8 @@ PageFrame {
     readonly property real between: used[2] * Theme.gap
     readonly property real leastGap: (Theme.textSize > 1.15 ? 0.4 : upright ? 0.8 : 0.7) * Theme.gap
     // What the page has left parts the points first, unless boxes may need it to say that they are missed.
-    readonly property real spare: roomy && needed === 0 ? Math.max(0, pane.room - tall(...used)) : 0
-    readonly property real pointGap: leastGap + Math.min(0.8 * Theme.gap, 0.4 * spare / Math.max(1, read.length))
+    readonly property real spare: carded ? Math.max(0, pane.room - tall(...used)) : 0
+    readonly property real pointGap: leastGap + Math.min(0.6 * Theme.gap, 0.4 * spare / Math.max(1, read.length))
     // How wide a drawing is for its letters.
     readonly property real badge: 1.7
     readonly property int needed: consent.purposes.filter(purpose => purpose.required).length
@@ -42,6 +42,10 @@ PageFrame {
     WordWidths {
         id: widths
     }
+    // Without boxes that are needed, the points have a card of their own: how far they are from its edges.
+    readonly property bool carded: short && needed === 0 && Theme.textSize <= 1.15
+    readonly property real inset: carded ? 24 * Theme.unit : 0
+    readonly property real padding: carded ? 1.1 * Theme.gap : 0
     // How high what opens all of the text is below the points.
     readonly property real asked: besides ? 0 : leastGap + 0.4 * Theme.gap + 1.37 * Theme.reading + 28 * Theme.unit
     // About how high points and boxes are, with letters of these sizes and so many gaps.
@@ -50,21 +54,21 @@ PageFrame {
         const points = read.map(each => Math.max(badge * pointSize, 1.48 * pointSize * linesOf(each.text, pointSize)))
         const boxes = consent.purposes.map(purpose => 2 * inside * Theme.gap + Math.max(64 * Theme.unit,
             lineOf(size) * widths.plainLines(purpose.text, size, column - 136 * Theme.unit)))
-        return sum(points) + (read.length - 1) * leastGap + asked + (needed > 0 ? Theme.gap + 1.37 * heads : 0)
+        return sum(points) + 2 * padding + (read.length - 1) * leastGap + asked + (needed > 0 ? Theme.gap + 1.37 * heads : 0)
             + sum(boxes) + count * apart * Theme.gap + (count - needed) * Math.ceil(1.37 * Theme.size(28))
     }
     // On how many lines a point stands.
     function linesOf(text: string, size: int): int {
-        return widths.plainLines(text, size, column - badge * size - apart(badge * size))
+        return widths.plainLines(text, size, column - 2 * inset - badge * size - apart(badge * size))
     }
     // Words stand above the words of the boxes: how far they are from a drawing that is so wide.
     function apart(drawing: real): real {
-        return Math.max(0.9 * Theme.gap, (needed > 0 ? 88 : 64) * Theme.unit + 0.9 * Theme.gap - drawing)
+        return Math.max(0.9 * Theme.gap, 88 * Theme.unit + 0.9 * Theme.gap - inset - drawing)
     }
     // Points have the letters of the boxes, or somewhat smaller ones where these spare them a line.
     function pointLetters(letters: real): real {
         const lines = less => sum(read.map(each => linesOf(each.text, Math.round(Theme.size(letters - less)))))
-        const tried = [0, 1, 2, 3, 4, 5, 6].map(lines), least = Math.min(...tried)
+        const tried = [0, 1, 2, 3, 4, 5, 6, 7].map(lines), least = Math.min(...tried)
         return letters - tried.indexOf(least)
     }
     // How high a line of a box is: letters and lines have whole pixels.
@@ -151,73 +155,87 @@ PageFrame {
             // What there is to tick stands apart from what is read, as far as the page has room.
             spacing: Math.max((view.consent.missing.length > 0 ? 0.4 : 0.5) * Theme.gap, Math.min((view.roomy ? 2 : view.upright ? 3.4 : 2.2) * Theme.gap, room - told.height - boxes.height))
 
-            Column {
+            Item {
                 id: told
                 width: pane.width
-                spacing: view.pointGap
-                Repeater {
-                    model: view.short ? view.read : []
-                    SignedLine {
-                        required property var modelData
-                        width: told.width
-                        text: modelData.text
-                        sign: modelData.sign
-                        badge: (view.roomy ? view.badge : 2.1) * size
-                        apart: view.roomy ? view.apart(badge) : Theme.gap
-                        size: view.roomy ? view.pointSize : Theme.body
-                    }
-                }
+                height: lines.height + 2 * view.padding
                 Rectangle {
-                    id: sheet
-                    visible: !view.short
-                    readonly property var texts: view.consent.paragraphs
-                    // Short lines are read with less effort than long ones: in two columns where there is room.
-                    readonly property bool halved: pane.width > 900 * Theme.unit && texts.length > 1
-                    readonly property int first: halved ? view.half(texts) : texts.length
-                    readonly property real column: halved ? (width - 4 * Theme.gap) / 2 : width - 2 * Theme.gap
-                    width: pane.width
-                    height: Math.max(left.height, halved ? right.height : 0) + 1.4 * Theme.gap
+                    visible: view.carded
+                    anchors.fill: parent
                     radius: Theme.radius
                     color: Theme.white
                     border { color: Theme.edge; width: 2 * Theme.unit }
-                    Paragraphs {
-                        id: left
-                        x: Theme.across(Theme.gap, width, sheet.width)
-                        y: 0.7 * Theme.gap
-                        width: sheet.column
-                        texts: sheet.texts.slice(0, sheet.first)
-                        size: Theme.small
+                }
+                Column {
+                    id: lines
+                    x: view.inset
+                    y: view.padding
+                    width: parent.width - 2 * x
+                    spacing: view.pointGap
+                    Repeater {
+                        model: view.short ? view.read : []
+                        SignedLine {
+                            required property var modelData
+                            width: lines.width
+                            text: modelData.text
+                            sign: modelData.sign
+                            badge: (view.roomy ? view.badge : 2.1) * size
+                            apart: view.roomy ? view.apart(badge) : Theme.gap
+                            size: view.roomy ? view.pointSize : Theme.body
+                        }
                     }
                     Rectangle {
-                        visible: sheet.halved
-                        x: (parent.width - width) / 2
-                        y: 0.9 * Theme.gap
-                        width: 2 * Theme.unit
-                        height: parent.height - 2 * y
-                        color: Theme.edge
+                        id: sheet
+                        visible: !view.short
+                        readonly property var texts: view.consent.paragraphs
+                        // Short lines are read with less effort than long ones: in two columns where there is room.
+                        readonly property bool halved: pane.width > 900 * Theme.unit && texts.length > 1
+                        readonly property int first: halved ? view.half(texts) : texts.length
+                        readonly property real column: halved ? (width - 4 * Theme.gap) / 2 : width - 2 * Theme.gap
+                        width: pane.width
+                        height: Math.max(left.height, halved ? right.height : 0) + 1.4 * Theme.gap
+                        radius: Theme.radius
+                        color: Theme.white
+                        border { color: Theme.edge; width: 2 * Theme.unit }
+                        Paragraphs {
+                            id: left
+                            x: Theme.across(Theme.gap, width, sheet.width)
+                            y: 0.7 * Theme.gap
+                            width: sheet.column
+                            texts: sheet.texts.slice(0, sheet.first)
+                            size: Theme.small
+                        }
+                        Rectangle {
+                            visible: sheet.halved
+                            x: (parent.width - width) / 2
+                            y: 0.9 * Theme.gap
+                            width: 2 * Theme.unit
+                            height: parent.height - 2 * y
+                            color: Theme.edge
+                        }
+                        Paragraphs {
+                            id: right
+                            visible: sheet.halved
+                            x: Theme.across(sheet.column + 3 * Theme.gap, width, sheet.width)
+                            y: 0.7 * Theme.gap
+                            width: sheet.column
+                            texts: sheet.texts.slice(sheet.first)
+                            size: Theme.small
+                        }
                     }
-                    Paragraphs {
-                        id: right
-                        visible: sheet.halved
-                        x: Theme.across(sheet.column + 3 * Theme.gap, width, sheet.width)
-                        y: 0.7 * Theme.gap
-                        width: sheet.column
-                        texts: sheet.texts.slice(sheet.first)
-                        size: Theme.small
-                    }
-                }
-                Item {
-                    visible: seated.active
-                    width: told.width
-                    height: seated.y + seated.height
-                    Loader {
-                        id: seated
-                        // It begins where the words do, a little apart from the last of them.
-                        readonly property real indent: view.short && view.roomy ? view.badge * view.pointSize + view.apart(view.badge * view.pointSize) : 0
-                        active: view.consent.points.length > 0 && !view.besides
-                        x: Theme.across(indent, width, told.width)
-                        y: view.roomy ? 0.4 * Theme.gap : 0
-                        sourceComponent: more
+                    Item {
+                        visible: seated.active
+                        width: lines.width
+                        height: seated.y + seated.height
+                        Loader {
+                            id: seated
+                            // It begins where the words do, a little apart from the last of them.
+                            readonly property real indent: view.short && view.roomy ? view.badge * view.pointSize + view.apart(view.badge * view.pointSize) : 0
+                            active: view.consent.points.length > 0 && !view.besides
+                            x: Theme.across(indent, width, lines.width)
+                            y: view.roomy ? 0.4 * Theme.gap : 0
+                            sourceComponent: more
+                        }
                     }
                 }
             }
@@ -257,8 +275,7 @@ PageFrame {
                                 width: parent.width
                                 large: view.roomy
                                 font.pixelSize: !large ? Theme.reading : Theme.size(view.used[0])
-                                bare: headed && view.needed === 0 && !Theme.highContrast
-                                horizontalPadding: bare ? 0 : (large ? 24 : 17) * Theme.unit
+                                horizontalPadding: (large ? 24 : 17) * Theme.unit
                                 verticalPadding: (large ? view.used[1] : view.short ? 0.25 : 0.45) * Theme.gap
                                 words: purpose.modelData.text
                                 needed: purpose.modelData.required

@@ -13,8 +13,6 @@ Choosable {
     property bool headed: false
     // Whether it may be left out, beside others that are needed.
     property bool lighter: false
-    // Whether it has no ground: a line like those above it, with its box in the place of their drawings.
-    property bool bare: false
     // What stands there instead, once it is ticked.
     property string agreed: ""
     property string warning: ""
@@ -23,7 +21,7 @@ Choosable {
     // On a page with much height.
     property bool large: false
 
-    horizontalPadding: bare ? 0 : (large ? 28 : 17) * Theme.unit
+    horizontalPadding: (large ? 28 : 17) * Theme.unit
     font.pixelSize: large ? Theme.size(33) : Theme.reading
     Accessible.role: Accessible.CheckBox
     Accessible.name: words
@@ -32,11 +30,11 @@ Choosable {
     background: Rectangle {
         radius: Theme.radius
         // What is ticked is darker; the pointer over it changes the edge alone.
-        color: box.bare ? "transparent" : !box.on ? (box.lighter ? Theme.white : Theme.touchable) : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, box.headed ? 0.06 : 0.14))
+        color: !box.on ? Theme.touchable : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, box.headed ? 0.06 : 0.14))
         border {
             color: box.warning ? Theme.deepAmber : box.hovered || box.on || Theme.highContrast || !box.lighter ? Theme.sea : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.45))
             // Below a heading those that are to be ticked have a strong one until they are.
-            width: box.bare ? 0 : (box.warning || box.hovered ? 4 : !box.headed || Theme.highContrast ? box.on ? 4 : 2 : box.on || box.lighter ? 2 : 4) * Theme.unit
+            width: (box.warning || box.hovered ? 4 : !box.headed || Theme.highContrast ? box.on ? 4 : 2 : box.on || box.lighter ? 2 : 4) * Theme.unit
         }
         FocusRing {
             around: box
@@ -78,7 +76,7 @@ Choosable {
             height: width
             radius: 0.2 * width
             color: box.on ? Theme.sea : Theme.white
-            border { color: box.warning ? Theme.deepAmber : Theme.sea; width: (box.warning || box.bare && box.hovered ? 6 : 4) * Theme.unit }
+            border { color: box.warning ? Theme.deepAmber : Theme.sea; width: (box.warning ? 6 : 4) * Theme.unit }
             ClippedShape {
                 anchors.fill: parent
                 visible: box.on
