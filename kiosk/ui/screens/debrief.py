@@ -63,11 +63,12 @@ class DebriefScreen(PageScreen):
 
     def clear(self) -> None:
         """Show no page and no code."""
+        # The points first: without them the page has nothing to find room for once the code goes.
+        super().clear()
         if self._code or self._contact or self._summary or self._returns:
             self._code = self._contact = self._summary = ""
             self._returns = False
             self.given.emit()
-        super().clear()
 
     @property
     def shown_code(self) -> str:
