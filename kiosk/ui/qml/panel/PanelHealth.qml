@@ -1,4 +1,4 @@
-// The day in numbers, and below it how everything is that is well; the notice tells the rest. Quieter than all else.
+// The day in numbers, and how everything is that is well; the notice tells the rest. Quieter than all else.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -12,12 +12,14 @@ PanelSection {
     required property bool allWell
     readonly property var words: panel.words
     readonly property var lines: panel.health.lines
-    // Whether it has all of a wide page: the checks stand in one row then, or in two.
+    // Whether it has all of a wide page: the checks stand beside two numbers then, or below more of them in one row or two.
     property bool abreast: false
-    readonly property int columns: Theme.textSize > 1.15 || lines.length < 2 ? 1 : !abreast ? 2 : lines.length > 4 ? 3 : lines.length
+    readonly property bool paired: abreast && day.visible && day.shown.length < 3
+    readonly property int columns: Theme.textSize > 1.15 || lines.length < 2 ? 1 : !abreast || paired ? 2 : lines.length > 4 ? 3 : lines.length
     readonly property int rows: Math.ceil(lines.length / columns)
     readonly property real gutter: Math.round(1.6 * Theme.gap)
     readonly property real room: width - 2 * inset
+    readonly property real numbered: paired ? Math.floor(0.34 * room) : room
 
     // How high it may be: what it has left is shared among its rows, as long as they still stand together.
     property real most: 0
@@ -25,7 +27,7 @@ PanelSection {
     readonly property real limit: 3 * Theme.gap
     readonly property real step: 10 * Theme.unit
     function column(width: real): real {
-        return Math.floor((width - 2 * inset - (columns - 1) * gutter) / columns)
+        return Math.floor((width - 2 * inset - (paired ? numbered + gutter : 0) - (columns - 1) * gutter) / columns)
     }
     // How wide the names are: all alike, except in a single row, where what they leave is for the words behind.
     function naming(size: real, alone: var): real {
@@ -37,11 +39,11 @@ PanelSection {
         return Math.max(1, ...each) * Math.ceil(1.4 * day.share * size)
     }
     function bare(size: real): real {
-        const numbers = day.deep(size, room)
-        let sum = edges + (numbers > 0 ? numbers + 2 * parting + 2 * Theme.unit : 0) + (allWell ? Math.ceil(1.4 * 1.2 * size) + step : 0) + (rows - 1) * step
+        const numbers = day.deep(size, numbered)
+        let sum = (allWell ? Math.ceil(1.4 * 1.2 * size) + step : 0) + (rows - 1) * step
         for (let at = 0; at < rows; at++)
             sum += row(at, size)
-        return Math.ceil(sum)
+        return Math.ceil(edges + (paired ? Math.max(numbers, sum) : numbers > 0 ? numbers + 2 * parting + 2 * Theme.unit + sum : sum))
     }
     readonly property real parting: 0.5 * Theme.gap
     WordWidths {
@@ -57,51 +59,56 @@ PanelSection {
     least: Theme.upright && spare === limit ? 0 : most
     apart: 0
 
-    PanelDay {
-        id: day
-        width: parent.width
-        panel: health.panel
-        size: health.size
-    }
-    Item {
-        visible: day.visible
-        width: parent.width
-        height: 2 * health.parting + 2 * Theme.unit + health.spare
-        Rectangle {
-            y: Math.floor((parent.height - height) / 2)
-            width: parent.width
-            height: 2 * Theme.unit
-            color: Theme.edge
-        }
-    }
-    Row {
-        visible: health.allWell
-        bottomPadding: health.step + 0.5 * health.spare
-        PanelMark {
-            width: 1.7 * health.size
-            well: true
-            grown: 1.3
-            size: 1.2 * health.size
-        }
-        PlainText {
-            text: health.words["console-all-well"]
-            font { pixelSize: 1.2 * health.size; bold: true }
-        }
-    }
     Grid {
-        width: parent.width
-        columns: health.columns
+        columns: health.paired ? 2 : 1
         columnSpacing: health.gutter
-        rowSpacing: health.step + health.spare
-        Repeater {
-            model: health.lines
-            delegate: PanelLine {
-                required property var modelData
-                line: modelData
-                words: health.words
-                width: health.column(health.width)
-                size: day.share * health.size
-                named: health.naming(health.size, modelData)
+        topPadding: health.paired ? health.spare : 0
+        verticalItemAlignment: Grid.AlignVCenter
+        PanelDay {
+            id: day
+            width: health.numbered
+            panel: health.panel
+            size: health.size
+        }
+        Item {
+            visible: day.visible && !health.paired
+            width: health.room
+            height: 2 * health.parting + 2 * Theme.unit + health.spare
+            Rectangle {
+                y: Math.floor((parent.height - height) / 2)
+                width: parent.width
+                height: 2 * Theme.unit
+                color: Theme.edge
+            }
+        }
+        Row {
+            visible: health.allWell
+            bottomPadding: health.step + 0.5 * health.spare
+            PanelMark {
+                width: 1.7 * health.size
+                well: true
+                grown: 1.3
+                size: 1.2 * health.size
+            }
+            PlainText {
+                text: health.words["console-all-well"]
+                font { pixelSize: 1.2 * health.size; bold: true }
+            }
+        }
+        Grid {
+            columns: health.columns
+            columnSpacing: health.gutter
+            rowSpacing: health.step + health.spare
+            Repeater {
+                model: health.lines
+                delegate: PanelLine {
+                    required property var modelData
+                    line: modelData
+                    words: health.words
+                    width: health.column(health.width)
+                    size: day.share * health.size
+                    named: health.naming(health.size, modelData)
+                }
             }
         }
     }

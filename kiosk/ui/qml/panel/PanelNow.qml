@@ -39,7 +39,7 @@ Rectangle {
     readonly property real tall: Math.round((beside ? 104 : 112) * Theme.unit)
     readonly property real low: Math.round((beside ? 72 : 76) * Theme.unit)
     // In the middle of a wide band stand the quiet ones, where that leaves the state its room.
-    readonly property real middling: Math.round(1.4 * Theme.dense)
+    readonly property real middling: Math.round(1.55 * Theme.dense)
     readonly property real middle: Math.ceil(Math.max(quiet === "" ? 0 : wordWidths.bold(quiet, middling) + 3.2 * middling, switched === "" ? 0 : wordWidths.column([switched], middling) + 122 * Theme.unit))
     readonly property int quiets: (quiet === "" ? 0 : 1) + (switched === "" ? 0 : 1)
     readonly property real before: quiets * (middle + Theme.gap)
