@@ -1354,8 +1354,8 @@ def test_the_ticket_of_a_code_is_as_far_from_its_words_above_as_below(
     assert coded is code
     assert largest > 1.7 * max(text.property("font").pixelSize() for text in (asked, told))
     assert not any(plan.catalogue.text("stop-line-kept").endswith(":") for plan in study.plans)
-    # It stands before the answers, as one of them takes the card away.
-    assert frame.bottom() < min(whole(button).top() for button in (on, stop))
+    # The answers follow the question, and the code is for those who stop.
+    assert frame.top() > max(whole(button).bottom() for button in (on, stop))
     kiosk.ask("")
 
 

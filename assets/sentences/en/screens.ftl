@@ -249,6 +249,6 @@ stop-title = Do you want to stop?
 stop-line-nothing = Nothing about you is stored.
 stop-line-kept = What was recorded so far is kept, marked as unfinished. With this code you can have it deleted.
 stop-line-deleted = What was recorded so far is deleted.
-stop-code = Photograph this code
+stop-code = If you stop, photograph this code
 stop-yes = Stop now
 stop-no = Go on

@@ -250,6 +250,6 @@ stop-title = ¿Quieres parar?
 stop-line-nothing = No se guarda nada sobre ti.
 stop-line-kept = Lo registrado hasta ahora se conserva, marcado como incompleto. Con este código puedes pedir que se borre.
 stop-line-deleted = Lo registrado hasta ahora se borra.
-stop-code = Haz una foto de este código
+stop-code = Si paras, haz una foto de este código
 stop-yes = Parar ahora
 stop-no = Seguir

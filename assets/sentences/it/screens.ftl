@@ -254,6 +254,6 @@ stop-title = Vuoi smettere?
 stop-line-nothing = Non viene conservato nulla su di te.
 stop-line-kept = Quanto registrato finora resta conservato, segnato come incompleto. Con questo codice puoi farlo cancellare.
 stop-line-deleted = Quanto registrato finora viene cancellato.
-stop-code = Fotografa questo codice
+stop-code = Se smetti, fotografa questo codice
 stop-yes = Smetti ora
 stop-no = Continua

@@ -200,7 +200,16 @@ FocusScope {
                     seconds: calm.seconds
                 }
             }
-            // Before the answers: one of them takes the card away.
+            CalmChoices {
+                id: buttons
+                anchors.horizontalCenter: parent.horizontalCenter
+                most: content.width
+                choices: calm.choices
+                large: calm.large
+                roomy: calm.roomy
+                onChosen: name => calm.chosen(name)
+            }
+            // After what is asked and its answers: it is for those who stop.
             CalmCode {
                 anchors.horizontalCenter: parent.horizontalCenter
                 visible: calm.code !== ""
@@ -211,15 +220,6 @@ FocusScope {
                 aside: calm.beside > 0 && calm.large
                 large: calm.large
                 roomy: calm.roomy
-            }
-            CalmChoices {
-                id: buttons
-                anchors.horizontalCenter: parent.horizontalCenter
-                most: content.width
-                choices: calm.choices
-                large: calm.large
-                roomy: calm.roomy
-                onChosen: name => calm.chosen(name)
             }
         }
     }

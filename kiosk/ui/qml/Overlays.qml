@@ -54,7 +54,7 @@ Item {
             // Above a face it reaches up to the distance that a page has from the edge, where it has so much to say.
             least: roomy ? (code !== "" ? speaker - 5 * Theme.gap : 900 * Theme.unit) : beside > 0 && Theme.textSize <= 1.15 && code !== "" ? 896 * Theme.unit : speaker > 0 && overlays.windowLayout.board !== null ? 900 * Theme.unit : 0
             title: overlays.words["stop-title"]
-            titleSize: roomy ? Theme.size(96) : beside > 0 && Theme.textSize <= 1.15 ? largestInOneLine(title, [104, 100, 96, 92, 88, 84, 80]) : Theme.figure
+            titleSize: roomy ? Theme.size(96) : beside > 0 && Theme.textSize <= 1.15 ? largestInOneLine(title, [92, 88, 84, 80]) : Theme.figure
             // What is to be known of a code stands with it.
             line: code === "" ? overlays.kiosk.stopLine : ""
             codeLine: overlays.kiosk.stopLine

@@ -248,6 +248,6 @@ stop-title = Möchtest du aufhören?
 stop-line-nothing = Über dich wird nichts gespeichert.
 stop-line-kept = Was bisher aufgezeichnet wurde, bleibt gespeichert und gilt als unvollständig. Mit diesem Code kannst du es löschen lassen.
 stop-line-deleted = Was bisher aufgezeichnet wurde, wird gelöscht.
-stop-code = Fotografiere diesen Code
+stop-code = Wenn du aufhörst, fotografiere diesen Code
 stop-yes = Jetzt aufhören
 stop-no = Weitermachen
