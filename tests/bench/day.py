@@ -1,4 +1,4 @@
-"""What a day costs a kiosk: ``python -m tests.bench.day [--sessions 200] [--gaps 3] [--speed 1] [--seconds 60]``.
+"""What a day costs a kiosk: ``python -m tests.bench.day [--sessions 350] [--gaps 3] [--speed 1] [--seconds 60]``.
 
 It prints how much memory and how many handles each session leaves behind, with a robot that fails at random; how long
 the event loop keeps anything waiting in real time; and which share of a core the start screen and a game at rest take.
@@ -44,8 +44,8 @@ from kiosk.ui.window import ClockMode, RunMode, WindowMode
 from kiosk.units import MS_PER_SECOND
 from tests.bench.stops import queued_ms, watched_stops
 
-WARM_UP = 60
-"""Sessions before memory is counted: pictures, fonts and sentences are loaded when they are first needed."""
+WARM_UP = 150
+"""Sessions before memory is counted: by then, visitors of all languages and text sizes have had most sentences."""
 
 BLOCK = 10
 """Of so many sessions the one counts after which least is held: the others hold more that is only about to go."""
@@ -223,7 +223,9 @@ def shares(folder: Path, seconds: float) -> None:
 def main() -> int:
     """Measure what is asked for."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("--sessions", type=int, default=200, help="sessions for memory, 4 or more; 0 leaves it out")
+    parser.add_argument(
+        "--sessions", type=int, default=WARM_UP + 200, help="sessions for memory, 4 or more; 0 leaves it out"
+    )
     parser.add_argument("--gaps", type=int, default=3, help="sessions in real time; 0 leaves them out")
     parser.add_argument("--speed", type=float, default=1, help="how many times as fast as people their visitors are")
     parser.add_argument("--seconds", type=float, default=60, help="time for each share; 0 leaves them out")
