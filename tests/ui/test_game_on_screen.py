@@ -615,6 +615,32 @@ def test_a_pair_keeps_its_size_until_another_card_is_turned(still: App) -> None:
     assert [card.property("fresh") for card in large] == [0, 0]
 
 
+@pytest.mark.parametrize("mark", [(0, None), (None, 0), (1, 2)], ids=["row", "column", "card"])
+def test_a_hint_makes_the_frames_of_found_cards_thin(still: App, mark: tuple[int | None, int | None]) -> None:
+    board = still.screens.board
+    for position in GONE:
+        board.reveal(position, "cat")
+    board.mark_matched(GONE)
+    cards = [find(still, f"card-{board.location(position)}") for position in GONE]
+    frames = [find(still, f"found-{board.location(position)}") for position in GONE]
+
+    def rims() -> set[float]:
+        faces = [
+            next(part for part in card.childItems() if part.metaObject().className().startswith("CardFace"))
+            for card in cards
+        ]
+        return {
+            round((frame.width() - face.width() * face.scale()) / 2) for frame, face in zip(frames, faces, strict=True)
+        }
+
+    (wide,) = rims()
+    board.highlight(*mark)
+    (thin,) = rims()
+    assert 2 <= thin < wide
+    board.clear_highlight()
+    assert rims() == {wide}
+
+
 @pytest.mark.parametrize("moves", [True], indirect=True)
 def test_snippets_of_the_feast_never_fall_in_one_line(app: App) -> None:
     """Of those that are seen at one time, no tenth of the height has a third."""

@@ -101,7 +101,7 @@ PageFrame {
     onTurnedDown: consent.decline()
     // Those who cannot see the heading change hear of it.
     readonly property string heard: consent.toGo || words["consent-ready"]
-    onHeardChanged: if (visible) home.Accessible.announce(heard, Accessible.Polite)
+    onHeardChanged: if (visible && needed > 0) home.Accessible.announce(heard, Accessible.Polite)
     onVisibleChanged: {
         whole = false
         home.focus = true
