@@ -35,7 +35,7 @@ PanelButton {
             width: parts.width - bar.between - bar.reach
             text: bar.words
             font: bar.font
-            color: bar.front
+            color: Theme.ink
             horizontalAlignment: Text.AlignLeft
             least: 0.6
             lineHeight: 0.9
