@@ -115,31 +115,21 @@ def health_lines(state: HealthInputs, catalogue: Catalogue) -> tuple[HealthLine,
 
 
 def _pin(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
-    name = catalogue.text("console-pin-line-name")
-    if state.has_pin:
-        return HealthLine(name, catalogue.text("console-pin-set"))
-    return HealthLine(
-        name,
-        catalogue.text("console-pin-none"),
-        is_ok=False,
-        remedy=catalogue.text("console-pin-remedy"),
-        command="recollect study set-pin",
-        button=catalogue.text("console-pin-how"),
-    )
+    name, there = catalogue.text("console-pin-line-name"), catalogue.text("console-pin-set")
+    return HealthLine(name, there) if state.has_pin else _missing(name, "pin", "recollect study set-pin", catalogue)
 
 
 def _supervisor(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
-    name = catalogue.text("console-supervisor")
+    name, there = catalogue.text("console-supervisor"), catalogue.text("console-supervisor-there")
     if state.supervised:
-        return HealthLine(name, catalogue.text("console-supervisor-there"))
-    return HealthLine(
-        name,
-        catalogue.text("console-supervisor-none"),
-        is_ok=False,
-        remedy=catalogue.text("console-supervisor-remedy"),
-        command="recollect run --supervise",
-        button=catalogue.text("console-supervisor-how"),
-    )
+        return HealthLine(name, there)
+    return _missing(name, "supervisor", "recollect run --supervise", catalogue)
+
+
+def _missing(name: str, part: str, command: str, catalogue: Catalogue) -> HealthLine:
+    """Say that a part is missing, what to do, and which command does it."""
+    missing, remedy, button = (catalogue.text(f"console-{part}-{what}") for what in ("none", "remedy", "how"))
+    return HealthLine(name, missing, is_ok=False, remedy=remedy, command=command, button=button)
 
 
 def booth_lines(state: HealthInputs, study: StudyConfig, catalogue: Catalogue) -> tuple[HealthLine, ...]:
