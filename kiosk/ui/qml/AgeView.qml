@@ -11,7 +11,7 @@ PageFrame {
 
     title: age.question
     // On an upright page, where the answers are as large as half of it, a short question has large letters too.
-    titleSize: !upright || Theme.textSize > 1 ? Theme.pageTitle : [88, 84, 80, 76, 72].map(Theme.size).find(size => widths.bold(title, size) <= 0.98 * (column - cornered)) ?? Theme.pageTitle
+    titleSize: !upright || Theme.textSize > 1 ? Theme.pageTitle : widths.largestInOneLine(title, [...[88, 84, 80, 76, 72].map(Theme.size), Theme.pageTitle], 0.98 * (column - cornered))
     WordWidths { id: widths }
     aside: accompanied ? words["age-line"] : ""
     onVisibleChanged: yes.focus = true

@@ -48,8 +48,7 @@ FocusScope {
     WordWidths { id: widths }
     // The largest of these letters with which a title is in one line, or else the smallest.
     function largestInOneLine(title: string, sizes: var): real {
-        const sized = sizes.map(Theme.size)
-        return sized.find(size => widths.bold(title, size) <= 0.99 * content.width) ?? sized[sized.length - 1]
+        return widths.largestInOneLine(title, sizes.map(Theme.size), 0.99 * content.width)
     }
     // Whether they lie on the page above the card, and not on it.
     readonly property bool spread: lies && roomy && card.y > 600 * Theme.unit

@@ -263,36 +263,29 @@ PageFrame {
                     }
                     Repeater {
                         model: view.consent.purposes
-                        Item {
-                            id: purpose
+                        TickBox {
+                            id: tick
                             required property var modelData
-                            required property int index
+                            objectName: "purpose-" + modelData.id
                             width: stack.width
-                            height: tick.height
-                            TickBox {
-                                id: tick
-                                objectName: "purpose-" + purpose.modelData.id
-                                width: parent.width
-                                large: view.roomy
-                                font.pixelSize: !large ? Theme.reading : Theme.size(view.used[0])
-                                horizontalPadding: (large ? 24 : 17) * Theme.unit
-                                verticalPadding: (large ? view.used[1] : view.short ? 0.25 : 0.45) * Theme.gap
-                                words: purpose.modelData.text
-                                needed: purpose.modelData.required
-                                headed: view.grouped
-                                lighter: !needed
-                                on: view.consent.ticks.includes(purpose.modelData.id)
-                                note: headed && !needed ? boxes.optional : view.words[needed ? "consent-required" : "consent-optional"]
-                                agreed: headed ? "" : view.words["consent-agreed"]
-                                warning: view.consent.missing.includes(purpose.modelData.id) ? view.words["consent-missing"] : ""
-                                // The first one of a card says so for all of them.
-                                terse: headed && view.consent.missing[0] !== purpose.modelData.id
-                                onClicked: view.consent.tick(purpose.modelData.id, !on)
-                            }
+                            large: view.roomy
+                            font.pixelSize: !large ? Theme.reading : Theme.size(view.used[0])
+                            horizontalPadding: (large ? 24 : 17) * Theme.unit
+                            verticalPadding: (large ? view.used[1] : view.short ? 0.25 : 0.45) * Theme.gap
+                            words: modelData.text
+                            needed: modelData.required
+                            headed: view.grouped
+                            on: view.consent.ticks.includes(modelData.id)
+                            note: headed && !needed ? boxes.optional : view.words[needed ? "consent-required" : "consent-optional"]
+                            agreed: headed ? "" : view.words["consent-agreed"]
+                            warning: view.consent.missing.includes(modelData.id) ? view.words["consent-missing"] : ""
+                            // The first one of a card says so for all of them.
+                            terse: headed && view.consent.missing[0] !== modelData.id
+                            onClicked: view.consent.tick(modelData.id, !on)
                             Connections {
                                 target: view.consent
                                 function onMissed(missed: string) {
-                                    if (missed !== purpose.modelData.id)
+                                    if (missed !== tick.modelData.id)
                                         return
                                     tick.forceActiveFocus(Qt.TabFocusReason)
                                     pane.reveal(tick)

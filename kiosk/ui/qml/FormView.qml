@@ -69,9 +69,9 @@ PageFrame {
     }
 
     WordWidths {
+        id: wordWidths
         // A study's questions are the same for all visitors, and a long form has many.
         mostKept: 2000
-        id: wordWidths
     }
     PageShape {
         id: shape

@@ -6,13 +6,11 @@ import "."
 Choosable {
     id: box
 
-    // What it is, in a word or two, and whether that is to be seen at once.
+    // What it is, in a word or two, and whether it is to be ticked.
     property string note: ""
     property bool needed: false
     // Whether a heading above it says so instead; the box still tells it to those who cannot see it.
     property bool headed: false
-    // Whether it may be left out, beside others that are needed.
-    property bool lighter: false
     // What stands there instead, once it is ticked.
     property string agreed: ""
     property string warning: ""
@@ -32,9 +30,9 @@ Choosable {
         // What is ticked is darker; the pointer over it changes the edge alone.
         color: !box.on ? Theme.touchable : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, box.headed ? 0.06 : 0.14))
         border {
-            color: box.warning ? Theme.deepAmber : box.hovered || box.on || Theme.highContrast || !box.lighter ? Theme.sea : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.45))
+            color: box.warning ? Theme.deepAmber : box.hovered || box.on || Theme.highContrast || box.needed ? Theme.sea : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.45))
             // Below a heading those that are to be ticked have a strong one until they are.
-            width: (box.warning || box.hovered ? 4 : !box.headed || Theme.highContrast ? box.on ? 4 : 2 : box.on || box.lighter ? 2 : 4) * Theme.unit
+            width: (box.warning || box.hovered ? 4 : !box.headed || Theme.highContrast ? box.on ? 4 : 2 : box.on || !box.needed ? 2 : 4) * Theme.unit
         }
         FocusRing {
             around: box

@@ -43,6 +43,10 @@ QtObject {
     function plain(text: string, size: real): real {
         return measured(text, plainLetters, plainTexts).whole * size / 100
     }
+    // The largest of these sizes with which a text is in one line of bold letters, or else the last.
+    function largestInOneLine(text: string, sizes: var, width: real): real {
+        return sizes.find(size => bold(text, size) <= width) ?? sizes[sizes.length - 1]
+    }
     // How many lines of bold letters a text has in so much width, and how many of plain ones.
     function lines(text: string, size: real, width: real): int {
         return linesOf(measured(text, boldLetters, boldTexts).words, bold(" ", size), size, width)
