@@ -64,6 +64,11 @@ console-today-minutes =
         [0] for less than 1 min
        *[other] for { $minutes } min
     }
+console-today-begun =
+    { $minutes ->
+        [0] just begun
+       *[other] begun { $minutes } min ago
+    }
 console-shortcuts = Shortcuts
 console-shortcuts-held = Shortcuts: { $keys } and …
 console-shortcut-panel = this panel
@@ -138,7 +143,7 @@ console-days =
        *[other] { $days } days ago
     }
 console-clock = Clock
-console-clock-well = goes as it should
+console-clock-well = keeps time
 console-clock-behind = { $hours } h behind what was written last
 console-clock-behind-remedy = Set the clock
 console-clock-jumped = was set by { $seconds } s since the start
@@ -237,10 +242,16 @@ console-actions = Actions
 console-repeat = Say it again
 console-mute = Mute
 console-heard = Turn the sound on
-console-stay-paused = Stay paused after closing
+console-stay-paused = Close, stay paused
 console-break = A break of
+console-sound = Sound
+console-data = Data
+console-break-row = Back in
+console-pause-row = Go on in
+console-break-open = untimed
 console-break-minutes = { $minutes } min
 console-break-end = End the break
+console-session = Session
 console-abort = End the session
 console-next = Next visitor
 console-resume = Go on with a session that was cut off

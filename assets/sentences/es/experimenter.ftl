@@ -64,6 +64,11 @@ console-today-minutes =
         [0] desde hace menos de 1 min
        *[other] desde hace { $minutes } min
     }
+console-today-begun =
+    { $minutes ->
+        [0] acaba de empezar
+       *[other] empezó hace { $minutes } min
+    }
 console-shortcuts = Atajos
 console-shortcuts-held = Atajos: { $keys } y …
 console-shortcut-panel = este panel
@@ -234,13 +239,19 @@ console-language = Idioma en reposo
 console-volume-is = Volumen { $percent } %
 console-volume = Volumen
 console-actions = Acciones
-console-repeat = Repetir la frase
+console-repeat = Repetir
 console-mute = Silenciar
 console-heard = Activar el sonido
-console-stay-paused = Seguir en pausa después
+console-stay-paused = Cerrar y seguir en pausa
 console-break = Una pausa de
+console-sound = Sonido
+console-data = Datos
+console-break-row = Vuelvo en
+console-pause-row = Seguir en
+console-break-open = sin hora
 console-break-minutes = { $minutes } min
 console-break-end = Terminar la pausa
+console-session = Sesión
 console-abort = Terminar la sesión
 console-next = Siguiente persona
 console-resume = Reanudar una sesión cortada

@@ -64,6 +64,11 @@ console-today-minutes =
         [0] da meno di 1 min
        *[other] da { $minutes } min
     }
+console-today-begun =
+    { $minutes ->
+        [0] da meno di 1 min
+       *[other] da { $minutes } min
+    }
 console-shortcuts = Tasti rapidi
 console-shortcuts-held = Tasti rapidi: { $keys } e …
 console-shortcut-panel = questo pannello
@@ -234,13 +239,19 @@ console-language = Lingua a riposo
 console-volume-is = Volume { $percent } %
 console-volume = Volume
 console-actions = Azioni
-console-repeat = Ripeti la frase
+console-repeat = Ripeti
 console-mute = Silenzia
 console-heard = Attiva l’audio
-console-stay-paused = Resta in pausa anche dopo
+console-stay-paused = Chiudi e resta in pausa
 console-break = Una pausa di
+console-sound = Suono
+console-data = Dati
+console-break-row = Torno tra
+console-pause-row = Riprendi tra
+console-break-open = senza ora
 console-break-minutes = { $minutes } min
 console-break-end = Termina la pausa
+console-session = Seduta
 console-abort = Termina la seduta
 console-next = Prossima persona
 console-resume = Riprendi una seduta interrotta

@@ -242,6 +242,7 @@ class Panel:
         booth, actions, told = self._booth, self._actions, self._catalogue.text
         under_way = self._under_way
         stays_paused = booth.runner.accepts(PauseEnded(at_ms=booth.runner.now_ms())) and not actions.paused_by_panel
+        lengths, untimed = actions.break_choices(), stays_paused and not booth.screens.kiosk.back_at
         embodiments = booth.embodiments
         robot = next((str(name) for name in embodiments.health if name != EmbodimentName.AVATAR), "")
         return {
@@ -275,10 +276,11 @@ class Panel:
             "muted": embodiments.is_muted,
             "staysPaused": stays_paused,
             "breaks": [
-                {"value": str(minutes), "label": told("console-break-minutes", minutes=minutes)}
-                for minutes in actions.break_choices()
-            ],
-            "break": str(actions.break_minutes) if booth.screens.kiosk.back_at else "",
+                {"value": str(minutes), "label": told("console-break-minutes", minutes=minutes)} for minutes in lengths
+            ]
+            # A session that was paused by a shortcut stays so without a time, and one that allows no break can, too.
+            + ([{"value": "0", "label": told("console-break-open")}] if untimed or (under_way and not lengths) else []),
+            "break": str(actions.break_minutes) if booth.screens.kiosk.back_at else "0" if untimed else "",
             "onBreak": booth.runner.is_on_break,
             "backup": copy_words(self._upkeep, self._catalogue),
         }
@@ -343,12 +345,17 @@ WORDS = (
     "console-language",
     "console-volume",
     "console-actions",
+    "console-sound",
+    "console-data",
     "console-repeat",
     "console-mute",
     "console-heard",
     "console-stay-paused",
     "console-break",
+    "console-break-row",
+    "console-pause-row",
     "console-break-end",
+    "console-session",
     "console-abort",
     "console-next",
     "console-resume",

@@ -12,7 +12,7 @@ from kiosk.assistance.wording import Catalogue
 from kiosk.experiment.booth_status import DayCounts
 from kiosk.experiment.condition import Condition, in_design_order
 from kiosk.experiment.experimenter import Action, AuditEvent, DeviationReason
-from kiosk.experiment.outcomes import Disposition, Status
+from kiosk.experiment.outcomes import Disposition, Stage, Status
 from kiosk.store.participants import CountCell, EnrolmentCounts
 from kiosk.store.snapshot import DashboardSnapshot, SnapshotAuditEvent, SnapshotSession
 from kiosk.ui.experimenter.view_model import Row
@@ -69,7 +69,10 @@ def today_rows(
         (
             "stage",
             stage_name(name, catalogue),
-            translate("console-today-minutes", minutes=lasted_ms // MS_PER_MINUTE),
+            translate(
+                "console-today-minutes" if name in (Stage.ATTRACT.value, Stage.OVER.value) else "console-today-begun",
+                minutes=lasted_ms // MS_PER_MINUTE,
+            ),
         ),
     )
     return {

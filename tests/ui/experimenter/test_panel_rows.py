@@ -34,7 +34,7 @@ def test_the_day_is_told_in_numbers_with_a_forecast_at_its_own_pace() -> None:
         "visitors": "8: 1 ended early",
         "completed": "6: 2 in the last hour",
         "target": "20 / 30: " + EN.text("console-today-forecast", hours="5"),
-        "stage": "Game: for 4 min",
+        "stage": "Game: begun 4 min ago",
     }
 
 

@@ -18,13 +18,14 @@ Button {
     property bool ringInPlace: false
     // What takes something from a visitor.
     property bool grave: false
-    // What is there all day, and weighs less than what is to be done: a tint, as the visitor's answers have.
-    property bool plain: false
+    // Whether the next one before it or after it goes on at once: it has no round corners there.
+    property bool joinedBefore: false
+    property bool joinedAfter: false
     property real least: 68 * Theme.unit
     readonly property color tone: grave ? Theme.deepAmber : Theme.sea
     property bool solid: chosen || (filled && enabled)
     // What lies below its words while it is not solid.
-    property color ground: !plain ? Theme.paper : !enabled ? Theme.resting : grave && !Theme.highContrast ? Qt.tint(Theme.white, Qt.alpha(tone, 0.08)) : Theme.touchable
+    property color ground: Theme.paper
     readonly property real corner: Math.min(height / 2, 60 * Theme.unit)
     property int alignment: Text.AlignHCenter
     // The lines of a small drawing before its words, on a square of 24; none without.
@@ -38,7 +39,7 @@ Button {
     focusPolicy: Qt.StrongFocus
     horizontalPadding: 24 * Theme.unit
     verticalPadding: 9 * Theme.unit
-    font { pixelSize: Theme.dense; bold: solid || grave || plain }
+    font { pixelSize: Theme.dense; bold: solid || grave }
     checkable: choosable
     checked: choosable && chosen
     onCheckedChanged: if (checked !== (choosable && chosen)) checked = Qt.binding(() => button.choosable && button.chosen)
@@ -91,7 +92,10 @@ Button {
         }
     }
     background: Rectangle {
-        radius: button.corner
+        topLeftRadius: button.joinedBefore ? 0 : button.corner
+        bottomLeftRadius: topLeftRadius
+        topRightRadius: button.joinedAfter ? 0 : button.corner
+        bottomRightRadius: topRightRadius
         color: button.solid ? (button.filled && button.hovered ? Theme.lightSea : Theme.sea) : button.down ? Theme.sand : button.hovered ? Theme.white : button.ground
         // What cannot be pressed now has a pale edge.
         border { color: button.enabled ? button.tone : Theme.edge; width: 2 * Theme.unit }

@@ -13,8 +13,8 @@ Column {
     property bool titled: true
     // Whether they take all of the width, in one row where their words fit.
     property bool even: false
-    // Whether all answers look as the actions around them do.
-    property bool plain: false
+    // Whether the answers of a row stand on one bar.
+    property bool joined: false
     property real least: 68 * Theme.unit
     // How wide each answer is at least, however short its words.
     property real broad: 0
@@ -23,7 +23,9 @@ Column {
     property real lettering: Theme.dense
     // How many stand in a row then, and how far from each other, in whole pixels: the row ends where its neighbours do.
     property int across: options.length
-    property real between: Math.round(9 * Theme.unit)
+    property real between: joined ? -seam : Math.round(9 * Theme.unit)
+    // How thick the line is that those on one bar share.
+    readonly property int seam: Math.max(1, Math.round(2 * Theme.unit))
     readonly property real each: Math.floor((width - (across - 1) * between) / Math.max(1, across))
     signal picked(string value)
 
@@ -53,10 +55,12 @@ Column {
                 chosen: modelData.value === choice.chosen
                 choosable: true
                 least: choice.least
-                plain: choice.plain && !solid
-                ringInPlace: choice.plain
+                joinedBefore: choice.joined && index % choice.across > 0
+                joinedAfter: choice.joined && index % choice.across < choice.across - 1 && index < choice.options.length - 1
+                ringInPlace: choice.joined
+                ground: choice.joined ? Theme.white : Theme.paper
                 horizontalPadding: (choice.even ? 8 : 24) * Theme.unit
-                font { pixelSize: choice.lettering; bold: choice.plain || solid }
+                font { pixelSize: choice.lettering; bold: choice.joined || solid }
                 width: choice.even && implicitWidth <= choice.each ? (index % choice.across === choice.across - 1 ? last : choice.each) : Math.min(Math.max(choice.broad, Math.ceil(implicitWidth)), choice.width)
                 Accessible.role: Accessible.RadioButton
                 Accessible.name: `${choice.title} ${words}`

@@ -14,6 +14,8 @@ Row {
     // Without a target, and before the first game, there is nothing to tell of it.
     readonly property var shown: panel.today.tiles.filter(each => each.name !== "stage" && each.value !== "-")
     readonly property real figure: (Theme.textSize > 1.15 || share < 1 ? 2 : 2.3) * Theme.dense
+    // How many columns there are below them, where they stand in line with these.
+    property int columns: 0
     // Each has what it needs, and all of them the same of what is left.
     readonly property var widths: widthsOf(size, width)
 
@@ -24,10 +26,9 @@ Row {
     function widthsOf(size: real, width: real): var {
         const wishes = shown.map(tile => Math.max(least(tile, size), Math.ceil(1.02 * Math.min(12 * size, wordWidths.plain(tile.line, share * size)) + 4 * Theme.unit)))
         const wished = wishes.reduce((sum, each) => sum + each, 0), spare = width - (shown.length - 1) * spacing - wished
-        // In line with the columns below them, where that is enough for each.
-        const even = (width - (shown.length - 1) * spacing) / shown.length
-        if (wishes.every(each => each <= even))
-            return wishes.map(() => Math.floor(even))
+        const abreast = Math.max(columns, shown.length), even = (width - (abreast - 1) * spacing) / abreast
+        if (wishes.every((each, at) => (columns > 0 ? least(shown[at], size) : each) <= even))
+            return wishes.map((each, at) => Math.floor(at < wishes.length - 1 ? even : even + (abreast - wishes.length) * (even + spacing)))
         const most = wished - shown.reduce((sum, tile) => sum + least(tile, size), 0)
         return wishes.map((each, at) => Math.floor(each + (spare >= 0 ? spare / wishes.length : spare * (each - least(shown[at], size)) / Math.max(1, most))))
     }

@@ -12,22 +12,38 @@ PanelSection {
     required property bool allWell
     readonly property var words: panel.words
     readonly property var lines: panel.health.lines
-    // Whether it has all of a wide page: the checks stand beside two numbers then, or below more of them in one row or two.
+    // Whether it has all of a wide page: all stand in one row then, or the checks below the numbers.
     property bool abreast: false
-    readonly property bool paired: abreast && day.visible && day.shown.length < 3
-    readonly property int columns: Theme.textSize > 1.15 || lines.length < 2 ? 1 : !abreast || paired ? 2 : lines.length > 4 ? 3 : lines.length
+    readonly property int together: day.shown.length + lines.length
+    readonly property bool tiled: abreast && day.shown.length > 0 && together < 7
+    readonly property int columns: Theme.textSize > 1.15 || lines.length < 2 ? 1 : !abreast ? 2 : lines.length > 4 ? 3 : lines.length
     readonly property int rows: Math.ceil(lines.length / columns)
     readonly property real gutter: Math.round(1.6 * Theme.gap)
     readonly property real room: width - 2 * inset
-    readonly property real numbered: paired ? Math.floor(0.34 * room) : room
+    readonly property real beside: Math.round(1.1 * Theme.gap)
+    // A line parts the numbers from the checks, which share what those leave.
+    readonly property real figures: figuresOf(factSize)
+    readonly property real tile: tileOf(factSize)
+    function figuresOf(size: real): real {
+        return Math.ceil(1.02 * Math.max(...day.shown.map(each => Math.max(wordWidths.plain(each.title, size), 1.6 * wordWidths.bold(each.value, size)))))
+    }
+    function tileOf(size: real): real {
+        return Math.floor((room - (together + 1) * beside - day.shown.length * figuresOf(size)) / Math.max(1, lines.length))
+    }
+    // A row of them is as large as goes, up to what is to be done, as long as each has one line.
+    readonly property real factSize: facts(size)
+    function facts(size: real): real {
+        const fits = letters => lines.every(each => 1.02 * Math.max(wordWidths.plain(each.name, letters), wordWidths.plain(each.message, letters)) + 1.6 * letters <= tileOf(letters))
+        return [1.12, 1.06].map(each => Math.floor(each * size)).find(fits) ?? size
+    }
 
     // How high it may be: what it has left is shared among its rows, as long as they still stand together.
     property real most: 0
-    readonly property real spare: Math.max(0, Math.min(limit, (most - bare(size)) / (rows + (allWell ? 1.5 : 1))))
+    readonly property real spare: Math.max(0, Math.min(limit, (most - bare(size)) / (tiled ? 2 : rows + (allWell ? 1.5 : 1))))
     readonly property real limit: 3 * Theme.gap
     readonly property real step: 10 * Theme.unit
     function column(width: real): real {
-        return Math.floor((width - 2 * inset - (paired ? numbered + gutter : 0) - (columns - 1) * gutter) / columns)
+        return Math.floor((width - 2 * inset - (columns - 1) * gutter) / columns)
     }
     // How wide the names are: all alike, except in a single row, where what they leave is for the words behind.
     function naming(size: real, alone: var): real {
@@ -39,11 +55,16 @@ PanelSection {
         return Math.max(1, ...each) * Math.ceil(1.4 * day.share * size)
     }
     function bare(size: real): real {
-        const numbers = day.deep(size, numbered)
+        if (tiled) {
+            const own = facts(size), number = figuresOf(own), check = tileOf(own) - 1.6 * own
+            const told = [...day.shown.map(each => 1 + (each.line === "" ? 0 : wordWidths.plainLines(each.line, own, number))), ...lines.map(each => wordWidths.plainLines(each.message, own, check))]
+            return Math.ceil(edges + (1.7 + Math.max(...told)) * Math.ceil(1.37 * own))
+        }
+        const numbers = day.deep(size, room)
         let sum = (allWell ? Math.ceil(1.4 * 1.2 * size) + step : 0) + (rows - 1) * step
         for (let at = 0; at < rows; at++)
             sum += row(at, size)
-        return Math.ceil(edges + (paired ? Math.max(numbers, sum) : numbers > 0 ? numbers + 2 * parting + 2 * Theme.unit + sum : sum))
+        return Math.ceil(edges + (numbers > 0 ? numbers + 2 * parting + 2 * Theme.unit + sum : sum))
     }
     readonly property real parting: 0.5 * Theme.gap
     WordWidths {
@@ -59,19 +80,58 @@ PanelSection {
     least: Theme.upright && spare === limit ? 0 : most
     apart: 0
 
-    Grid {
-        columns: health.paired ? 2 : 1
-        columnSpacing: health.gutter
-        topPadding: health.paired ? health.spare : 0
-        verticalItemAlignment: Grid.AlignVCenter
+    Row {
+        visible: health.tiled
+        topPadding: health.spare
+        spacing: health.beside
+        Repeater {
+            model: health.tiled ? day.shown : []
+            delegate: PanelFact {
+                required property var modelData
+                objectName: "today-" + modelData.name
+                width: health.figures
+                size: health.factSize
+                words: health.words
+                title: modelData.title
+                value: modelData.value
+                line: modelData.line
+            }
+        }
+        Item {
+            visible: health.lines.length > 0
+            width: health.beside
+            height: Math.round(2.5 * 1.37 * health.factSize)
+            Rectangle {
+                x: (parent.width - width) / 2
+                width: 2 * Theme.unit
+                height: parent.height
+                color: Theme.edge
+            }
+        }
+        Repeater {
+            model: health.tiled ? health.lines : []
+            delegate: PanelFact {
+                required property var modelData
+                width: health.tile
+                size: health.factSize
+                words: health.words
+                title: modelData.name
+                value: modelData.message
+                check: modelData
+            }
+        }
+    }
+    Column {
+        visible: !health.tiled
         PanelDay {
             id: day
-            width: health.numbered
+            width: health.room
+            columns: health.abreast ? health.columns : 0
             panel: health.panel
             size: health.size
         }
         Item {
-            visible: day.visible && !health.paired
+            visible: day.shown.length > 0
             width: health.room
             height: 2 * health.parting + 2 * Theme.unit + health.spare
             Rectangle {

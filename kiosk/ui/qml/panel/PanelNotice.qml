@@ -12,8 +12,12 @@ Rectangle {
     required property real size
     // How much higher each row is than it needs to be.
     property real more: 0
-    // How high it is at least, where it ends with the actions beside it.
+    // How high it is at least, where it ends with the actions beside it. All rows are as high then, as theirs are, unless
+    // one of them needs more.
     property real lowest: 0
+    readonly property real even: lowest === 0 ? 0 : Math.floor((lowest - 2 * above) / Math.max(1, matters.length))
+    readonly property real share: matters.every(matter => high(matter, size) + 2 * between <= even) ? even : 0
+    readonly property real extra: lowest === 0 || share > 0 ? 0 : Math.max(0, Math.floor((lowest - deep(size)) / Math.max(1, matters.length)))
     readonly property var matters: panel.health.matters
     // The actions that answer one of them: their buttons stand here, and not among the others.
     readonly property var answered: matters.map(matter => matter.action ?? "").filter(action => action !== "")
@@ -72,15 +76,16 @@ Rectangle {
     function holds(size: real): bool {
         return asides(size) && matters.filter(isAnswered).every(matter => 1.02 * wordWidths.bold(said(matter), size) <= beside(matter, size))
     }
+    // How high a matter is if it is written so large.
+    function high(matter: var, size: real): real {
+        const line = each => Math.ceil(1.37 * each), answer = answerOf(size)
+        const own = beside(matter, size), answers = isAnswered(matter) ? Math.max(least, line(size) + 18 * Theme.unit) : 0
+        const words = wordWidths.lines(said(matter), size, own) * line(size) + (matter.remedy ? wordWidths.plainLines(matter.remedy, answer, own) * line(answer) : 0)
+        return !asides(size) ? words + (answers > 0 ? answers + 6 * Theme.unit : 0) : Math.max(answers, words)
+    }
     // How high it is if it is written so large.
     function deep(size: real): real {
-        const line = each => Math.ceil(1.37 * each), below = !asides(size), answer = answerOf(size)
-        const high = matter => {
-            const own = beside(matter, size), answers = isAnswered(matter) ? Math.max(least, line(size) + 18 * Theme.unit) : 0
-            const words = wordWidths.lines(said(matter), size, own) * line(size) + (matter.remedy ? wordWidths.plainLines(matter.remedy, answer, own) * line(answer) : 0)
-            return below ? words + (answers > 0 ? answers + 6 * Theme.unit : 0) : Math.max(answers, words)
-        }
-        return Math.ceil(matters.reduce((sum, matter) => sum + high(matter) + 2 * between + 2 * Theme.unit, 0) - 2 * between - 2 * Theme.unit + 2 * above + 2 * between)
+        return Math.ceil(matters.reduce((sum, matter) => sum + high(matter, size) + 2 * between + 2 * Theme.unit, 0) - 2 * between - 2 * Theme.unit + 2 * above + 2 * between)
     }
     // Give the keyboard to the button of an action, if it stands here.
     function take(action: string): bool {
@@ -105,7 +110,8 @@ Rectangle {
         property alias button: button
         visible: matter !== null
         width: notice.across
-        height: 2 * notice.between + notice.more + (notice.aside ? Math.max(words.height, foot) : words.height + (answered ? foot + 6 * Theme.unit : 0))
+        readonly property real tall: notice.aside ? Math.max(words.height, foot) : words.height + (answered ? foot + 6 * Theme.unit : 0)
+        height: Math.max(notice.share, 2 * notice.between + notice.more + notice.extra + tall)
         Rectangle {
             visible: !row.first
             width: parent.width
@@ -121,12 +127,13 @@ Rectangle {
         Column {
             id: words
             x: notice.mark
-            y: notice.aside ? Math.floor((row.height - height) / 2) : notice.between
+            y: Math.floor((row.height - (notice.aside ? height : row.tall)) / 2)
             width: row.room
             PlainText {
                 width: parent.width
                 text: row.matter === null ? "" : notice.said(row.matter)
-                font { pixelSize: notice.size; bold: true }
+                // What comes first is what to begin with.
+                font { pixelSize: notice.size; bold: row.first }
                 color: Theme.ink
                 wrapMode: Text.Wrap
             }
@@ -166,7 +173,7 @@ Rectangle {
             width: Math.min(notice.answering, row.width - (notice.aside ? 0 : notice.mark))
             enabled: row.action !== "backup" || notice.panel.choices.backup === ""
             least: notice.least
-            ground: row.open ? Theme.touchable : Theme.white
+            ground: row.open || row.first ? Theme.touchable : Theme.white
             horizontalPadding: notice.padding
             words: row.matter?.button ?? ""
             drawing: notice.signs[row.action || "how"] ?? ""

@@ -25,10 +25,11 @@ Rectangle {
     readonly property string word: (underWay ? words["console-paused"] : pausing ? words["console-on-break"] : stage?.value) ?? ""
     readonly property string second: underWay ? stage?.value ?? "" : ""
     readonly property string told: stage?.line ?? ""
-    // What is pressed most is filled and stands at the end; the way back is quiet beside it then.
-    readonly property string main: (pausing ? words["console-break-end"] : goesOn ? words["console-next"] : choices.back) ?? ""
-    readonly property string quiet: pausing || goesOn ? choices.back ?? "" : ""
-    readonly property string switched: underWay ? words["console-stay-paused"] ?? "" : ""
+    // What is pressed most is filled and stands at the end, and the way back is quiet beside it then. A session that is to
+    // stay paused has a way out that says so.
+    readonly property bool stays: underWay && !goesOn && (choices.staysPaused ?? false)
+    readonly property string main: (pausing ? words["console-break-end"] : goesOn ? words["console-next"] : stays ? words["console-stay-paused"] : choices.back) ?? ""
+    readonly property string quiet: pausing || goesOn || stays ? choices.back ?? "" : ""
 
     readonly property real inset: Math.round(1.4 * Theme.gap)
     readonly property real above: Math.round((!beside ? 1 : inRow ? 0.3 : 0.5) * Theme.gap)
@@ -39,28 +40,22 @@ Rectangle {
     readonly property real tall: Math.round((beside ? 104 : 112) * Theme.unit)
     readonly property real low: Math.round((beside ? 72 : 76) * Theme.unit)
     // In the middle of a wide band stand the quiet ones, where that leaves the state its room.
-    readonly property real middling: Math.round(1.55 * Theme.dense)
-    readonly property real middle: Math.ceil(Math.max(quiet === "" ? 0 : wordWidths.bold(quiet, middling) + 3.2 * middling, switched === "" ? 0 : wordWidths.column([switched], middling) + 122 * Theme.unit))
-    readonly property int quiets: (quiet === "" ? 0 : 1) + (switched === "" ? 0 : 1)
-    readonly property real before: quiets * (middle + Theme.gap)
-    readonly property bool inRow: beside && tabled && quiets > 0 && width - side - before - Theme.gap - inset - sign - signGap >= Math.max(1.04 * wordWidths.bold(word, 4.6 * Theme.dense), 11 * Theme.dense)
+    readonly property real middling: Math.round(1.45 * Theme.dense)
+    readonly property real middle: Math.ceil(Math.max(0, quiet === "" ? 0 : 1.02 * wordWidths.bold(quiet, middling) + 2 * middling + 56 * Theme.unit))
+    readonly property real before: quiet === "" ? 0 : middle + Theme.gap
+    readonly property bool inRow: beside && tabled && quiet !== "" && width - side - before - Theme.gap - inset - sign - signGap >= Math.max(1.04 * wordWidths.bold(word, 4.6 * Theme.dense), 11 * Theme.dense)
     readonly property real room: (beside ? width - side - Theme.gap : width - inset) - (inRow ? before : 0) - inset - sign - signGap
     // Smaller where the state has a long name, and in two lines only where even small letters do not fit.
     readonly property real crown: Math.floor(Math.max(2.4 * Theme.dense, Math.min(4.6 * Theme.dense, 98 * room / Math.max(1, wordWidths.bold(word, 100)))))
     // How much nearer the line below it stands than its letters ask for.
     readonly property real close: Math.floor((beside ? 0.1 : 0.05) * crown)
     readonly property real lettering: lettered(size)
-    readonly property alias way: back
+    readonly property Item way: stays ? stay : back
 
     // The words of its buttons have one line, where that does not make them small.
     function lettered(size: real): real {
         const most = (!tabled ? 1 : beside ? 1.15 : 1.3) * size
         return Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(most, ...[main, quiet].map(text => (across - 50 * Theme.unit) / (wordWidths.bold(text, 1) + 2.3)))))
-    }
-    // The words of the switch beside its knob, too; in the middle of the band they have two.
-    function switching(size: real): real {
-        const most = tabled && !beside ? 1.15 * size : size
-        return inRow ? middling : Math.floor(Math.max(Math.min(size, 1.2 * Theme.dense), Math.min(most, (across - 128 * Theme.unit) / Math.max(1, 1.02 * wordWidths.plain(switched, 1)))))
     }
     // How high the words are, and what is pressed.
     function saidDeep(size: real): real {
@@ -69,14 +64,19 @@ Rectangle {
         return Math.max(sign, line(crown) * (0.08 + 0.92 * wordWidths.lines(word, crown, 1.03 * room)) - close + (second + told === "" ? 0 : behind ? 1 : 2) * line(under(size)))
     }
     function pressedDeep(size: real): real {
-        const letters = lettered(size), small = switching(size)
-        const button = (text, least) => text === "" ? 0 : Math.max(least, 1.4 * letters * wordWidths.lines(text, letters, across - 2.05 * letters - 36 * Theme.unit) + 18 * Theme.unit)
-        const knob = switched === "" ? 0 : Math.max(low, 1.3 * small * (inRow ? 2 : wordWidths.plainLines(switched, small, across - 120 * Theme.unit)) + 18 * Theme.unit)
-        const each = [button(main, tall), button(quiet, low), knob].filter(high => high > 0)
+        const letters = lettered(size)
+        const button = (text, least) => Math.max(least, 1.4 * letters * wordWidths.lines(text, letters, across - 2.05 * letters - 36 * Theme.unit) + 18 * Theme.unit)
+        const each = [button(main, tall), ...(quiet === "" ? [] : [button(quiet, low)])]
         return inRow ? Math.max(...each) : each.reduce((sum, high) => sum + high + space, -space)
     }
+    // Close the panel, and let the session stay paused or go on.
+    function leave(paused: bool) {
+        if (underWay && (choices.staysPaused ?? false) !== paused)
+            panel.wish("pause", "")
+        panel.wish("panel", "")
+    }
     function under(size: real): real {
-        return (beside ? 1.15 : 1.25) * size
+        return (beside ? 1.08 : 1.25) * size
     }
     function behinds(size: real): bool {
         return second !== "" && wordWidths.bold(second, under(size)) * 1.02 + 0.5 * size + wordWidths.plain(told, under(size)) * 1.02 <= room
@@ -155,7 +155,7 @@ Rectangle {
         id: ways
         x: !now.beside ? now.inset : now.width - now.side - (now.inRow ? now.before : 0)
         y: now.beside ? Math.floor((now.height - height) / 2) : said.y + said.height + Theme.gap
-        columns: now.inRow ? now.quiets + 1 : 1
+        columns: now.inRow ? 2 : 1
         columnSpacing: Theme.gap
         rowSpacing: now.space
         layoutDirection: now.inRow ? Qt.RightToLeft : Qt.LeftToRight
@@ -163,10 +163,11 @@ Rectangle {
 
         component Way: PanelButton {
             readonly property string play: "M8 5 L19 12 L8 19 Z"
-            width: filled || !now.inRow ? now.across : now.middle
-            least: filled ? now.tall : now.low
+            property bool leads: true
+            width: leads || !now.inRow ? now.across : now.middle
+            least: leads ? now.tall : now.low
             ground: "transparent"
-            font { pixelSize: filled || !now.inRow ? now.lettering : now.middling; bold: true }
+            font { pixelSize: leads || !now.inRow ? now.lettering : now.middling; bold: true }
         }
         Way {
             objectName: "break-end"
@@ -185,24 +186,21 @@ Rectangle {
             onClicked: now.panel.wish("next", "")
         }
         Way {
+            id: stay
+            objectName: "action-pause"
+            visible: now.stays
+            filled: true
+            words: now.words["console-stay-paused"]
+            onClicked: now.leave(true)
+        }
+        Way {
             id: back
             objectName: "panel-back"
-            filled: now.quiet === ""
+            leads: now.quiet === ""
+            filled: leads
             words: now.choices.back ?? ""
-            // Only where it does let the visitor go on.
-            drawing: now.underWay && !now.choices.staysPaused ? play : "M20 12 H4 M10.5 5.5 L4 12 L10.5 18.5"
-            onClicked: now.panel.wish("panel", "")
-        }
-        PanelSwitch {
-            objectName: "action-pause"
-            visible: now.underWay
-            width: now.inRow ? now.middle : now.across
-            least: now.low
-            horizontalPadding: 6 * Theme.unit
-            font.pixelSize: now.switching(now.size)
-            words: now.words["console-stay-paused"]
-            on: now.choices.staysPaused
-            onClicked: now.panel.wish("pause", "")
+            drawing: now.underWay ? play : "M20 12 H4 M10.5 5.5 L4 12 L10.5 18.5"
+            onClicked: now.leave(false)
         }
     }
 }

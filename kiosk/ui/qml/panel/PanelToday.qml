@@ -21,7 +21,7 @@ Item {
     // An upright page keeps some room for the air between its parts before it has larger letters.
     readonly property real air: wide ? 0 : 5.5 * Theme.gap
     // Whole pixels: a card at a fraction of one would lose its right edge.
-    readonly property real side: Math.floor(wide ? width * 0.38 : width)
+    readonly property real side: Math.floor(wide ? width * 0.43 : width)
     readonly property real main: wide ? width - side - space : width
     readonly property real below: now.height + space
     // With several matters, the notice is about as high as the actions beside it, and the day stands below both.
@@ -33,7 +33,7 @@ Item {
     // What a page has left is shared among its parts; the last of them takes the rest.
     readonly property real free: Math.floor(seen - below)
     readonly property real spare: !tabled ? 0 : Math.max(0, free - (level ? both(size) : told(size) + (wide ? 0 : space + done(size))))
-    readonly property real beside: Math.max(notice.deep(size), Math.min(actions.most, Math.max(notice.deep(size), acting) + Math.floor(0.65 * spare)))
+    readonly property real beside: Math.max(notice.deep(size), Math.min(actions.most, Math.max(notice.deep(size), acting) + Math.floor((health.tiled ? 0.85 : 0.65) * spare)))
     readonly property real aired: wide ? 0 : Math.floor(Math.min(0.8 * Theme.gap, 0.15 * spare))
     readonly property real acting: actions.deep(size)
 
@@ -104,7 +104,7 @@ Item {
             id: notice
             width: parent.width
             size: today.size
-            more: today.level ? Math.floor((today.beside - deep(today.size)) / Math.max(1, matters.length)) : Math.floor(Math.min(0.6 * Theme.gap, 0.2 * today.spare / Math.max(1, matters.length)))
+            more: today.level ? 0 : Math.floor(Math.min(0.6 * Theme.gap, 0.2 * today.spare / Math.max(1, matters.length)))
             lowest: today.level ? today.beside : 0
             panel: today.panel
             visible: today.warned
@@ -120,10 +120,8 @@ Item {
             id: actions
             answered: notice.answered
             signs: notice.signs
-            space: today.space
             width: parent.width
             panel: today.panel
-            wide: today.wide
             size: today.size
             least: today.panel.records.resumable.length > 0 ? 0 : today.level ? today.beside : today.wide ? Math.min(today.free, Math.max(today.told(today.size) + notice.more * notice.matters.length, actions.most)) : today.acting + Math.floor(Math.min(0.4 * today.acting, 0.4 * today.spare))
         }

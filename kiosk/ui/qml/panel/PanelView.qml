@@ -40,7 +40,7 @@ FocusScope {
     Item {
         id: head
         z: 1
-        anchors { top: parent.top; left: parent.left; right: parent.right; margins: view.edge; topMargin: view.space }
+        anchors { top: parent.top; left: parent.left; right: parent.right; margins: view.edge; topMargin: Theme.gap }
         height: Math.max(pages.height, close.height + 0.3 * Theme.gap)
         // Where large words leave too little room, as on an upright screen, the title is what can be spared.
         readonly property bool tight: !fits(usual, true)
@@ -63,8 +63,8 @@ FocusScope {
             visible: !head.tight
             y: (close.height - height) / 2
             text: view.words["console-title"]
-            font { pixelSize: Math.max(head.tabSize, 1.35 * Theme.dense); bold: true }
-            color: Theme.ink
+            font.pixelSize: Math.max(head.tabSize, 1.35 * Theme.dense)
+            color: Theme.faintInk
         }
         Row {
             id: pages
@@ -105,14 +105,16 @@ FocusScope {
         PlainText {
             id: clock
             objectName: "today-clock"
-            anchors { right: close.left; rightMargin: Theme.gap; verticalCenter: close.verticalCenter }
+            anchors { right: close.visible ? close.left : parent.right; rightMargin: close.visible ? Theme.gap : 0; verticalCenter: close.verticalCenter }
             text: view.panel.today.clock
-            font { pixelSize: Theme.dense * 1.8; bold: true }
-            color: Theme.ink
+            font.pixelSize: Math.max(head.usual, Theme.dense * 1.45)
+            color: Theme.faintInk
         }
         PanelButton {
             id: close
             objectName: "panel-close"
+            // The first page has ways back that say what they do.
+            visible: view.page > 0
             anchors { right: parent.right; top: parent.top }
             width: 76 * Theme.unit
             words: view.words["console-close"]
