@@ -14,7 +14,6 @@ from typing import Any
 
 import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, QPointF, QRectF
-from PySide6.QtGui import QFontMetricsF
 from PySide6.QtQml import qmlEngine
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 from PySide6.QtWidgets import QApplication
@@ -672,21 +671,23 @@ def background_of(button: QQuickItem) -> QQuickItem:
 def test_statements_of_an_upright_page_end_at_one_distance_above_their_points(
     kiosk: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
-    unit, distances = layout.height / 1920, []
-    depths: dict[int, set[int]] = {}
+    unit = layout.height / 1920
+    distances: dict[int, list[float]] = {}
+    depths: dict[tuple[int, int], set[int]] = {}
     for page in rating_pages(kiosk, layout, SIXTEEN + ASKED["trust"].items):
         for _, card, shown, scale in page:
-            depths.setdefault(round(shown.height() / (50 * unit)), set()).add(round(scale.top() - card.top()))
-            distances.append(scale.top() - shown.bottom())
+            lines = round(shown.height() / (50 * unit))
+            depths.setdefault((len(page), lines), set()).add(round(scale.top() - card.top()))
+            distances.setdefault(len(page), []).append(scale.top() - shown.bottom())
             # There is as much air above the letters, which begin below the top of their line, as below the points.
             above, below = shown.top() - card.top() + 15 * unit, card.bottom() - scale.bottom()
             assert min(above, below) >= 24 * unit
             assert above == pytest.approx(below, abs=6 * unit)
-    # On each page, a statement of so many lines stands at one place.
-    assert sorted(depths) == [1, 2]
-    assert [max(places) - min(places) <= 1 for places in depths.values()] == [True, True]
-    assert min(distances) >= 20 * unit
-    assert max(distances) - min(distances) <= 1
+    # On each page, a statement of so many lines stands at one place; where fewer are asked, all is larger.
+    assert sorted(depths) == [(3, 1), (4, 1), (4, 2)]
+    assert [max(places) - min(places) <= 1 for places in depths.values()] == [True] * 3
+    assert [max(each) - min(each) <= 1 for each in distances.values()] == [True] * 2
+    assert 20 * unit <= min(distances[4]) <= min(distances[3])
 
 
 def test_statements_of_one_line_and_of_two_stand_in_the_middle_of_as_high_cards(
@@ -695,7 +696,7 @@ def test_statements_of_one_line_and_of_two_stand_in_the_middle_of_as_high_cards(
     mixed, alone = rating_pages(kiosk, Layout(1080, 1920), SIXTEEN[:4] + ASKED["trust"].items)
     assert {round(shown.height() / 50) for _, _, shown, _ in mixed} == {1, 2}
     assert {round(shown.height() / 50) for _, _, shown, _ in alone} == {1}
-    assert len({round(card.height()) for _, card, _, _ in (*mixed, *alone)}) == 1
+    assert [len({round(card.height()) for _, card, _, _ in page}) for page in (mixed, alone)] == [1, 1]
     for _, card, shown, scale in (*mixed, *alone):
         assert shown.top() - card.top() + 15 == pytest.approx(card.bottom() - scale.bottom(), abs=6)
 
@@ -867,12 +868,15 @@ def test_all_points_of_a_page_of_ratings_have_the_same_ground(
         assert len({picture.pixelColor(spot.toPoint()).name() for spot in beside}) == 1
 
 
-@pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1080, 1920)], ids=str)
-def test_a_page_with_fewer_ratings_has_the_first_cards_of_the_full_ones_and_leaves_the_rest_to_the_helper(
-    kiosk: tuple[Window, StudyConfig], layout: Layout
-) -> None:
+Feet = dict[int, tuple[QRectF, QRectF]]
+"""Where the helper's back and the way on are, by how many ratings the page has."""
+
+
+def fewer_ratings(kiosk: tuple[Window, StudyConfig], layout: Layout) -> tuple[dict[int, list[Any]], Feet]:
+    """Show pages of four, three and two ratings of one study."""
     ground, wide = kiosk[0].shown.contentItem(), layout.width > layout.height
-    pages, feet, ends = {}, {}, {}
+    pages: dict[int, list[Any]] = {}
+    feet: Feet = {}
     for number in (3, 2):
         for page in rating_pages(kiosk, layout, SIXTEEN[:4] + ASKED["trust"].items[:number]):
             back, on, why = (find_item(ground, name) for name in ("turned-away", "continue", "why-turned-away"))
@@ -883,30 +887,49 @@ def test_a_page_with_fewer_ratings_has_the_first_cards_of_the_full_ones_and_leav
             pages[len(page)], feet[len(page)] = page, (whole(back), whole(on))
             # A sheet of two needs no band at its foot.
             foot = find_item(ground, "table-foot")
-            ends[len(page)] = page[-1][1].bottom() if foot is None else whole(foot).bottom()
             assert (foot is not None) is (not wide and len(page) > 2)
     assert sorted(pages) == [2, 3, 4]
+    return pages, feet
+
+
+def test_a_wide_page_with_fewer_ratings_has_higher_ones_and_keeps_the_way_on_and_the_helper_in_their_places(
+    kiosk: tuple[Window, StudyConfig],
+) -> None:
+    pages, feet = fewer_ratings(kiosk, Layout(1920, 1080))
     for number in (2, 3):
         for before, after in zip(pages[4], pages[number], strict=False):
-            assert after[1].getRect() == pytest.approx(before[1].getRect(), abs=1)
-            # Points of an upright page with short statements are a little higher in their cards.
+            assert after[1].height() > before[1].height() + 30
+            # Points stand in the same columns, and are as large.
             old, new = before[3], after[3]
-            assert new.getRect() == pytest.approx((old.x(), new.y(), old.width(), old.height()), abs=1)
-            assert old.y() - (1 if wide else 30) <= new.y() <= old.y() + 1
-        # The helper's back begins below the last card, or below the way on, which follows the cards of an upright page.
+            assert (new.left(), new.width(), new.height()) == pytest.approx(
+                (old.left(), old.width(), old.height()), abs=1
+            )
         standing, below = feet[number]
-        last, gone = pages[number][-1][1], ends[4] - ends[number]
-        if wide:
-            assert below.top() == pytest.approx(feet[4][1].top(), abs=1)
-        else:
-            # What the back does not need is shared out above the way on and below it.
-            more = below.top() - (feet[4][1].top() - gone)
-            assert 0 <= more < 0.6 * gone
-            usual = feet[4][0].top() - feet[4][1].bottom()
-            assert standing.top() - below.bottom() == pytest.approx(usual + more, abs=2)
-        assert standing.top() >= (last if wide else below).bottom() + 23
-        assert standing.bottom() == pytest.approx(layout.height, abs=1)
-        assert 1.4 * feet[4][0].height() <= standing.height() <= 2 * feet[4][0].height()
+        assert below.top() == pytest.approx(feet[4][1].top(), abs=1)
+        assert standing.top() >= pages[number][-1][1].bottom() + 23
+        assert standing.bottom() == pytest.approx(1080, abs=1)
+    assert feet[3][0].getRect() == pytest.approx(feet[4][0].getRect(), abs=1)
+    # Two leave more than they can use: the helper is larger then.
+    assert feet[2][0].height() > 1.1 * feet[4][0].height()
+
+
+def test_an_upright_page_with_fewer_ratings_has_higher_ones_and_keeps_the_way_on_and_the_helper_in_their_places(
+    kiosk: tuple[Window, StudyConfig],
+) -> None:
+    pages, feet = fewer_ratings(kiosk, Layout(1080, 1920))
+    for number in (2, 3):
+        for before, after in zip(pages[4], pages[number], strict=False):
+            assert after[1].height() > before[1].height() + 60
+            assert after[3].height() > before[3].height(), "points are larger"
+        assert len({(round(card.height()), round(points.height())) for _, card, _, points in pages[number]}) == 1
+    for three, four in zip(feet[3], feet[4], strict=True):
+        assert three.getRect() == pytest.approx(four.getRect(), abs=1)
+    # Two leave more than they can use: the helper is larger then, and the way on follows the cards.
+    assert feet[2][1].top() < feet[4][1].top() - 100
+    assert feet[2][0].height() > 1.4 * feet[4][0].height()
+    for number in (2, 3):
+        assert feet[number][0].top() >= feet[number][1].bottom() + 23
+        assert feet[number][0].bottom() == pytest.approx(1920, abs=1)
 
 
 @pytest.mark.parametrize("language", SHIPPED)
@@ -995,7 +1018,7 @@ def test_ten_points_alone_on_a_page_are_alike_and_large_over_its_width_below_a_l
     assert scale.left() - card.left() == pytest.approx(card.right() - scale.right(), abs=1)
     assert 28 <= scale.left() - card.left() <= 48
     asked = next(text for text in texts(ground) if text.property("text").replace("\xa0", " ") == ALONE[0].text["en"])
-    assert asked.property("font").pixelSize() >= (60 if wide else 80)
+    assert asked.property("font").pixelSize() >= (60 if wide else 72)
     # The card is no higher than what is on it, with as much air above as below.
     assert card.bottom() < four[-1][1].bottom() - 100
     assert card.top() <= four[0][1].top() + 1
@@ -1323,39 +1346,40 @@ def test_a_card_over_everything_lies_in_the_window_with_all_that_stands_on_it(
                 uncover()
 
 
+def shown_words(text: QQuickItem) -> str:
+    """Return what a text says, without what keeps its words together."""
+    return str(text.property("text")).replace("\xa0", " ")
+
+
 @pytest.mark.parametrize("layout", LAYOUTS[:4], ids=str)
-def test_the_ticket_of_a_code_is_as_far_from_its_words_above_as_below(
+def test_what_follows_from_stopping_is_read_before_it_is_pressed(
     whole_window: tuple[Window, StudyConfig], layout: Layout
 ) -> None:
     window, study = whole_window
     kiosk, shown = window.screens.kiosk, window.shown
-    window.screens.set_language(study.plans[0].catalogue)
+    catalogue = study.plans[0].catalogue
+    window.screens.set_language(catalogue)
     show_practice(window, study, layout)
     kiosk.ask("stop")
     lay_out(shown)
-    code = find_item(shown.contentItem(), "noted")
-    on, stop = (find_item(shown.contentItem(), f"stop-{answer}") for answer in ("no", "yes"))
-    assert code is not None
+    ground, wide = shown.contentItem(), layout.width > layout.height
+    on, stop, ticket = (find_item(ground, name) for name in ("stop-no", "stop-yes", "ticket"))
     assert on is not None
     assert stop is not None
-    ticket = code.parentItem().parentItem()
+    assert ticket is not None
     frame = whole(ticket)
-    written = [(whole(text), QFontMetricsF(text.property("font"))) for text in texts(ticket)]
-    assert len(written) == 3
-    above = min(place.top() + font.ascent() - font.capHeight() for place, font in written) - frame.top()
-    below = frame.bottom() - max(place.bottom() - font.descent() for place, font in written)
-    least = 27 * min(layout.width, layout.height) / 1080
-    assert above == pytest.approx(below, abs=3)
-    assert min(above, below) >= least
-    # The code is larger than the words above and below it, which are whole sentences by themselves.
-    (asked, _), (coded, largest), (told, _) = sorted(
-        ((text, text.property("font").pixelSize()) for text in texts(ticket)), key=lambda pair: whole(pair[0]).top()
-    )
-    assert coded is code
-    assert largest > 1.7 * max(text.property("font").pixelSize() for text in (asked, told))
-    assert not any(plan.catalogue.text("stop-line-kept").endswith(":") for plan in study.plans)
-    # The answers follow the question, and the code is for those who stop.
-    assert frame.top() > max(whole(button).bottom() for button in (on, stop))
+    (told,) = (text for text in texts(ground) if shown_words(text) == catalogue.text("stop-line-kept"))
+    assert painted(told).bottom() < frame.top() < frame.bottom() < min(whole(button).top() for button in (on, stop))
+    # Beside the code or above it stands what to do with it, in smaller letters.
+    note, code = texts(ticket)
+    assert shown_words(note) == catalogue.text("stop-code")
+    assert code.objectName() == "noted"
+    assert code.property("font").pixelSize() > 1.4 * note.property("font").pixelSize()
+    assert (whole(note).right() < whole(code).left()) is wide
+    # Both stand in the middle of it.
+    both = whole(note).united(whole(code))
+    assert both.center().x() == pytest.approx(frame.center().x(), abs=2)
+    assert both.center().y() == pytest.approx(frame.center().y(), abs=2)
     kiosk.ask("")
 
 

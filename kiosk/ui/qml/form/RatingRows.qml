@@ -21,7 +21,7 @@ QtObject {
 
     readonly property bool possible: !page.upright && !page.alone && !page.largeText
     // How much of the page's height the rows of a table leave. Hidden ones count: what depends on it stays where it is.
-    readonly property real left: sheet === null ? 0 : (stack !== null ? page.free - 12 * Theme.unit : page.cleared) - sheet.head - foot - joint - page.items.length * (sheet.height + 2 * sheet.margin)
+    readonly property real left: sheet === null ? 0 : (stack !== null ? page.free - 12 * Theme.unit : page.cleared) - sheet.head - foot - joint - page.items.length * (sheet.height + 2 * sheet.margin) - sheet.rest
     // How the rows of such a table look, all measures of them; null if they are none.
     readonly property var table: !possible || !alike() ? null : tabled()
     // How ratings by numbers look on an upright page; null if they do not fit so. They stand on a sheet as well, each scale
@@ -138,8 +138,9 @@ QtObject {
             const height = 2 * Math.ceil(Math.max(point, widths.leading * text * (page.dense ? lines : 1 + 0.92 * Math.max(1, lines - 1))) / 2)
             const head = headHeight(end, pointsWidth, page.dense ? 4 : 14)
             const margin = Math.floor(Math.min(54 * Theme.unit, ((page.cleared - head - joint) / rows - height) / 2))
+            const [more, rest] = shared(rows, height / 2 + margin)
             if (lines <= most && textWidth > 0.3 * page.inner && margin >= (page.dense ? 8 : 14) * Theme.unit)
-                return {point, end, beyond: exempting, scaleWidth, textWidth, text, height, margin, head}
+                return {point, end, beyond: exempting, scaleWidth, textWidth, text, height, margin: margin + more, head, rest}
         }
         return null
     }
@@ -159,11 +160,29 @@ QtObject {
             const noted = Math.max(20 * Theme.unit, widths.leading * Theme.small + 6 * Theme.unit - spacing)
             for (const foot of own || rows < long ? [0] : [head, 0]) {
                 const margin = Math.floor(Math.min((foot > 0 ? 26 : 30) * Theme.unit, ((room - head - foot) / rows - height) / 2))
+                const [more, rest] = shared(rows, height / 2 + margin)
+                // So are their words and points, as far as each statement keeps its lines and the points their distance.
+                const [larger, broader] = more === 0 ? [text, point] : grown(text, point, lines, span)
+                const higher = Math.ceil(widths.leading * (larger - text) * (1 + 0.92 * (lines - 1)))
+                const wider = Math.floor(Math.max(0, Math.min(0.4 * more, 2 * more - higher - broader + point)))
                 if (lines <= most && margin >= (foot > 0 ? noted : (own ? 14 : 20) * Theme.unit))
-                    return {point, end, own, beyond: exempting, text, spacing, lines, top, height, margin, raised: Math.max(0, Math.min(8 * Theme.unit, margin - noted)), head, foot, room: (of, other) => endRoom(of, other, end, span)}
+                    return {point: broader, end, own, beyond: exempting, text: larger, spacing: spacing + wider, lines, top: top + higher + wider, height: height + higher + broader - point + wider, margin: margin + more - (higher + broader - point + wider) / 2, rest, raised: Math.max(0, Math.min(8 * Theme.unit, margin - noted)), head, foot, room: (of, other) => endRoom(of, other, end, span)}
             }
         }
         return null
+    }
+    // How much higher each half of a row is where a page has fewer than another one, so that the ways and the helper stand
+    // where they do there; and what whole pixels leave of that.
+    function shared(rows: int, half: real): var {
+        const few = page.items.length, wish = (rows / few - 1) * half, more = Math.floor(Math.min(60 * Theme.unit, wish))
+        return [more, more < wish - 1 ? 0 : 2 * few * (wish - more)]
+    }
+    // How large the words and the points of few ratings are.
+    function grown(text: real, point: real, lines: int, span: real): var {
+        const points = Math.max(...page.items.map(item => item.points))
+        const scale = [1.25, 1.2, 1.15, 1.1, 1.05].find(each => 1.25 * points * each * point <= span
+            && page.items.every(item => widths.lines(item.shown, Math.floor(each * text), page.inner) <= lines)) ?? 1
+        return [Math.floor(scale * text), 2 * Math.floor(scale * point / 2)]
     }
     // How far words for the ends are below their points, and how high they are there.
     readonly property real endsUnder: 8 * Theme.unit
