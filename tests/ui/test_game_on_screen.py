@@ -1034,15 +1034,15 @@ def test_going_on_stands_where_the_way_on_does_and_has_the_keyboard(still: App) 
     assert on.property("focus")
 
 
-def test_behind_a_question_the_helper_is_calm(still: App) -> None:
+def test_behind_a_question_the_helper_listens(still: App) -> None:
     still.screens.avatar.feel(Mood.HAPPY)
     face = find(still, "face")
     assert face.property("mood") == "happy"
     still.screens.kiosk.ask("stop")
-    assert face.property("mood") == "idle"
+    assert face.property("mood") == "listening"
     still.screens.kiosk.ask("")
     still.screens.kiosk.ask_still_there(asks=True)
-    assert face.property("mood") == "idle"
+    assert face.property("mood") == "listening"
 
 
 def test_dots_tell_how_far_a_visit_is(still: App) -> None:

@@ -14,10 +14,9 @@ FocusScope {
     property bool lineFirst: false
     // What stands below that line; empty for none.
     property string more: ""
-    // What is to be taken along, what it is for, and what to do with it; empty for none.
+    // What is to be taken along, and what to do with it; empty for none.
     property string code: ""
-    property string codeLine: ""
-    property string codeTitle: ""
+    property string codeNote: ""
     // The lines of a drawing above the title, on a square of 24; empty for none.
     property string sign: ""
     // Where the face of the one who asks is, at which the card then stands; null where there is none.
@@ -131,7 +130,7 @@ FocusScope {
             id: content
             anchors.centerIn: parent
             width: parent.width - 4 * Theme.gap
-            spacing: (calm.roomy || calm.large && calm.beside > 0 ? (calm.code === "" ? 2 : calm.roomy ? 2.4 : 1.6) : calm.large && buttons.alone ? 2 : 1.5) * Theme.gap
+            spacing: (calm.roomy || calm.large && calm.beside > 0 ? (calm.code === "" || !calm.roomy ? 2 : 2.4) : calm.large && buttons.alone ? 2 : 1.5) * Theme.gap
             Rectangle {
                 anchors.horizontalCenter: parent.horizontalCenter
                 visible: calm.sign !== "" && calm.lasts === 0
@@ -199,6 +198,17 @@ FocusScope {
                     seconds: calm.seconds
                 }
             }
+            // Before the answers: it is read before one of them takes it away.
+            CalmCode {
+                anchors.horizontalCenter: parent.horizontalCenter
+                visible: calm.code !== ""
+                width: parent.width
+                code: calm.code
+                note: calm.codeNote
+                aside: calm.beside > 0 && calm.large
+                large: calm.large
+                roomy: calm.roomy
+            }
             CalmChoices {
                 id: buttons
                 anchors.horizontalCenter: parent.horizontalCenter
@@ -207,18 +217,6 @@ FocusScope {
                 large: calm.large
                 roomy: calm.roomy
                 onChosen: name => calm.chosen(name)
-            }
-            // After what is asked and its answers: it is for those who stop.
-            CalmCode {
-                anchors.horizontalCenter: parent.horizontalCenter
-                visible: calm.code !== ""
-                width: parent.width
-                code: calm.code
-                title: calm.codeTitle
-                line: calm.codeLine
-                aside: calm.beside > 0 && calm.large
-                large: calm.large
-                roomy: calm.roomy
             }
         }
     }

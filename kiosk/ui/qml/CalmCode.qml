@@ -1,80 +1,69 @@
-// What a visitor carries away from a calm card: a ticket with a code, and below it what the code is for.
+// What a visitor carries away from a calm card: a code, and what to do with it. In one line where both fit, or below each other.
 import QtQuick
 import "."
 
 Rectangle {
     id: frame
+    objectName: "ticket"
 
     required property string code
-    required property string title
-    // What it is for.
-    required property string line
+    required property string note
     required property bool large
     required property bool roomy
-    // Whether the face is beside the card, which then has a larger title that the code may come close to.
+    // Whether the card is wide.
     required property bool aside
-    readonly property real inset: (large ? 36 : 28) * Theme.unit
+    readonly property real inset: (large ? 30 : 20) * Theme.unit
+    readonly property real between: 1.6 * Theme.gap
     readonly property real room: width - 2 * inset
-    readonly property real between: 0.3 * inset
-    // How far capitals are from the frame, above and below: a line is higher than they are.
-    readonly property real high: capital(first) + below.descent
+    // A wide code has smaller letters there.
+    readonly property bool inLine: aside && named.advanceWidth + between <= 0.56 * room
+    readonly property real forCode: inLine ? Math.floor(room - note.width - between) : room
 
-    function capital(letters: FontMetrics): real {
-        return letters.ascent - 0.72 * letters.font.pixelSize
-    }
-
-    height: Math.ceil(asked.height + code.height + between + told.height + 2 * inset - high)
+    height: Math.ceil(both.height + 2 * inset)
     radius: Theme.radius
     // Quieter than the question and its answers.
     color: Theme.paper
     border { color: Theme.edge; width: 3 * Theme.unit }
-    FontMetrics {
-        id: first
-        font: asked.font
+    TextMetrics {
+        id: named
+        font: note.font
+        text: frame.note
     }
-    FontMetrics {
-        id: below
-        font: told.font
+    TextMetrics {
+        id: coded
+        font: noted.font
+        text: frame.code
     }
-    Column {
-        x: frame.inset
-        y: frame.inset - frame.capital(first)
-        width: frame.room
+    Grid {
+        id: both
+        anchors.centerIn: parent
+        columns: frame.inLine ? 2 : 1
+        columnSpacing: frame.between
+        horizontalItemAlignment: Grid.AlignHCenter
+        verticalItemAlignment: Grid.AlignVCenter
+        LayoutMirroring.enabled: Theme.mirrored
         PlainText {
-            id: asked
-            width: parent.width
-            text: frame.title
-            font { pixelSize: Theme.size(frame.roomy ? 42 : frame.large ? 36 : 30); bold: true }
+            id: note
+            width: Math.min(Math.ceil(named.advanceWidth) + 2, frame.room)
+            text: frame.note
+            font { pixelSize: Theme.size(frame.roomy ? 42 : frame.large ? 40 : 30); bold: true }
             color: Theme.ink
             wrapMode: Text.Wrap
             horizontalAlignment: Text.AlignHCenter
         }
         PlainText {
-            id: code
+            id: noted
             objectName: "noted"
-            width: parent.width
+            width: Math.min(Math.ceil(coded.advanceWidth) + 4, frame.forCode)
             text: frame.code
             font {
-                pixelSize: Theme.size(frame.roomy ? 88 : frame.aside ? 78 : 58)
+                pixelSize: Theme.size(frame.roomy ? 80 : frame.aside ? 68 : frame.large ? 58 : 48)
                 bold: true
                 letterSpacing: 3 * Theme.unit
             }
             fontSizeMode: Text.HorizontalFit
             minimumPixelSize: Theme.body
             color: Theme.sea
-            horizontalAlignment: Text.AlignHCenter
-        }
-        Item {
-            width: parent.width
-            height: frame.between
-        }
-        Balanced {
-            id: told
-            objectName: "noted-line"
-            width: parent.width
-            text: frame.line
-            font.pixelSize: Theme.size(frame.roomy ? 38 : frame.large ? 32 : 28)
-            color: Theme.ink
             horizontalAlignment: Text.AlignHCenter
         }
     }

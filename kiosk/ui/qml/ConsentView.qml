@@ -55,7 +55,7 @@ PageFrame {
         const boxes = consent.purposes.map(purpose => 2 * inside * Theme.gap + Math.max(64 * Theme.unit,
             lineOf(size) * widths.plainLines(purpose.text, size, column - 136 * Theme.unit)))
         return sum(points) + 2 * padding + (read.length - 1) * leastGap + asked + (needed > 0 ? Theme.gap + 1.37 * heads : 0)
-            + sum(boxes) + count * apart * Theme.gap + (count - needed) * Math.ceil(1.37 * Theme.size(28))
+            + sum(boxes) + count * apart * Theme.gap + (count - needed) * Math.ceil(1.37 * size)
     }
     // On how many lines a point stands.
     function linesOf(text: string, size: int): int {

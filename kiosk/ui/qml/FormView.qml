@@ -166,7 +166,7 @@ PageFrame {
     PageLine {
         visible: view.lined
         // Large letters have more air below them, and leave less of the height.
-        y: (shape.largeText ? -0.75 : -0.5) * Theme.gap
+        y: (shape.largeText ? -0.75 : -0.62) * Theme.gap
         width: view.column
         pages: view.form.pages
         page: view.form.page

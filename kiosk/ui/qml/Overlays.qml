@@ -55,12 +55,10 @@ Item {
             least: roomy ? (code !== "" ? speaker - 5 * Theme.gap : 900 * Theme.unit) : beside > 0 && Theme.textSize <= 1.15 && code !== "" ? 896 * Theme.unit : speaker > 0 && overlays.windowLayout.board !== null ? 900 * Theme.unit : 0
             title: overlays.words["stop-title"]
             titleSize: roomy ? Theme.size(96) : beside > 0 && Theme.textSize <= 1.15 ? largestInOneLine(title, [92, 88, 84, 80]) : Theme.figure
-            // What is to be known of a code stands with it.
-            line: code === "" ? overlays.kiosk.stopLine : ""
-            codeLine: overlays.kiosk.stopLine
+            line: overlays.kiosk.stopLine
             lineSize: roomy ? Theme.size(50) : large ? Theme.size(44) : Theme.body
             code: overlays.kiosk.stopCode
-            codeTitle: overlays.words["stop-code"]
+            codeNote: overlays.words["stop-code"]
             // Neither is the quieter one: to stop is as easy to see as to go on.
             choices: [{ name: "stop-no", words: overlays.words["stop-no"], sign: "play" }, { name: "stop-yes", words: overlays.words["stop-yes"], sign: "leave" }]
             onChosen: name => name === "stop-yes" ? overlays.kiosk.stop() : overlays.kiosk.ask("")

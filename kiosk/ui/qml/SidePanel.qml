@@ -18,7 +18,7 @@ Item {
     property bool centred: false
     // Whether it rests, with its eyes shut and in silence.
     property bool rests: false
-    // Whether a question lies over everything: its face is then neither glad nor sad.
+    // Whether a question lies over everything: it listens then, and is neither glad nor sad.
     property bool waits: false
     // What is to be read in its bubble: while it says nothing, or where it leads, whatever it said last.
     property string aside: ""
@@ -151,7 +151,7 @@ Item {
         anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: (panel.edge > 0 ? panel.edge - panel.hidden * height : 0) - 1.05 * height * gone }
         width: panel.faceWidth(parent.width, parent.height, panel.speaks ? panel.share : 0.94)
         height: width * 440 / 400
-        mood: panel.rests || panel.waits ? "idle" : panel.avatar.mood
+        mood: panel.rests ? "idle" : panel.waits ? "listening" : panel.avatar.mood
         // Without motion it speaks with its mouth shut: the bubble stands there meanwhile.
         mouth: Theme.motion === 0 ? 0 : panel.avatar.mouth
         mouthShape: panel.avatar.mouthShape

@@ -11,6 +11,7 @@ Choosable {
     property bool needed: false
     // Whether a heading above it says so instead; the box still tells it to those who cannot see it.
     property bool headed: false
+    readonly property bool optional: headed && !needed
     // What stands there instead, once it is ticked.
     property string agreed: ""
     property string warning: ""
@@ -27,10 +28,11 @@ Choosable {
 
     background: Rectangle {
         radius: Theme.radius
-        // What is ticked is darker; the pointer over it changes the edge alone.
-        color: !box.on ? Theme.touchable : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, box.headed ? 0.06 : 0.14))
+        // What is ticked is darker; the pointer over it changes the edge alone. Below a heading, what need not be ticked is
+        // as quiet as what is to be read, and its mark says that it is ticked.
+        color: box.optional && !Theme.highContrast ? Theme.white : !box.on ? Theme.touchable : Theme.highContrast ? Theme.sand : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, box.headed ? 0.06 : 0.14))
         border {
-            color: box.warning ? Theme.deepAmber : box.hovered || box.on || Theme.highContrast || box.needed ? Theme.sea : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.45))
+            color: box.warning ? Theme.deepAmber : box.hovered || box.on || Theme.highContrast || box.needed ? Theme.sea : box.optional ? Theme.edge : Qt.tint(Theme.touchable, Qt.alpha(Theme.sea, 0.45))
             // Below a heading those that are to be ticked have a strong one until they are.
             width: (box.warning || box.hovered ? 4 : !box.headed || Theme.highContrast ? box.on ? 4 : 2 : box.on || !box.needed ? 2 : 4) * Theme.unit
         }
@@ -99,11 +101,11 @@ Choosable {
             PlainText {
                 objectName: "tag"
                 width: parent.width
-                visible: box.headed && !box.needed
+                visible: box.optional
                 text: box.note
                 horizontalAlignment: LayoutMirroring.enabled ? Text.AlignLeft : undefined
                 color: Theme.sea
-                font { pixelSize: Theme.size(28); bold: true }
+                font { pixelSize: box.font.pixelSize; bold: true }
                 Accessible.ignored: true
             }
             Balanced {

@@ -77,7 +77,7 @@ Item {
                 anchors { fill: parent; margins: parent.height * 0.07 }
                 radius: height * 0.18
                 color: place.filled ? Theme.leaf : Theme.paper
-                border { color: Theme.slot; width: place.filled ? 0 : Math.max(1, 3 * Theme.unit) }
+                border { color: Theme.highContrast ? Theme.slot : Theme.edge; width: place.filled ? 0 : Math.max(1, 3 * Theme.unit) }
             }
             // The two cards are hinted at in it: an empty box would look like a field to be filled in.
             Repeater {
