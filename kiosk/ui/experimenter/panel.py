@@ -345,6 +345,7 @@ WORDS = (
     "console-language",
     "console-volume",
     "console-actions",
+    "console-to-do",
     "console-sound",
     "console-data",
     "console-repeat",

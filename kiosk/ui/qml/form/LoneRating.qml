@@ -20,7 +20,7 @@ QtObject {
         if (page.largeText)
             return Theme.heading
         const lines = size => page.widths.lines(question, size, page.inner)
-        const [sizes, most] = page.upright ? [[72, 68, 64, 60, 56], 3] : [[64, 62, 60, 58, 56], lines(Theme.size(52))]
+        const [sizes, most] = page.upright ? [[80, 76, 72, 68, 64, 60, 56], 3] : [[64, 62, 60, 58, 56], lines(Theme.size(52))]
         return sizes.map(Theme.size).find(size => lines(size) <= most) ?? Theme.size(52)
     }
 }

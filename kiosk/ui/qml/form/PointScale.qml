@@ -147,7 +147,7 @@ Item {
                         visible: !scale.pictured
                         readonly property real reach: Math.min(scale.size, scale.tall)
                         text: point.number
-                        font { pixelSize: Math.min(scale.lone ? Theme.size(56) : Theme.heading, Math.max((scale.lone && scale.tall > scale.size ? 0.68 : scale.lone ? 0.53 : 0.48) * reach, Math.min(Theme.body, 0.5 * reach))); bold: true }
+                        font { pixelSize: Math.min(scale.lone ? Theme.size(56) : Theme.heading, Math.max((scale.lone && scale.tall > scale.size ? 0.6 : scale.lone ? 0.53 : 0.48) * reach, Math.min(Theme.body, 0.5 * reach))); bold: true }
                         color: point.on ? Theme.white : Theme.ink
                     }
                     Image {

@@ -14,6 +14,10 @@ Rectangle {
     // How large their words are where they fit, and how high the card is at least.
     required property real size
     property real least: 0
+    // Whether it has a heading, and how high that is then.
+    property bool titled: false
+    property real head: 0
+    required property real heading
     readonly property var words: panel.words
     readonly property var choices: panel.choices
     readonly property bool normal: Theme.textSize <= 1.15
@@ -31,7 +35,7 @@ Rectangle {
     readonly property real between: Math.round(0.42 * Theme.gap)
     readonly property real across: Math.floor(width - 2 * inset)
     readonly property real apart: Math.round(0.75 * Theme.gap)
-    readonly property real edge: Math.round(0.75 * Theme.gap)
+    readonly property real edge: Math.round(0.9 * Theme.gap)
     // Two buttons stand side by side, and names before them, unless the words are large.
     readonly property int pairs: normal ? daily.length : 1
     readonly property bool aside: normal && largest(true) >= Math.min(size, 1.1 * Theme.dense)
@@ -40,20 +44,20 @@ Rectangle {
     readonly property real room: across - before
     readonly property real each: Math.floor((room - (pairs - 1) * apart) / pairs)
     // All rows are as high unless one of them needs more, and what is left makes the buttons a little higher.
-    readonly property real even: Math.floor((least - 2 * above) / names.length)
+    readonly property real even: Math.floor((least - 2 * above - head) / names.length)
     readonly property real share: rowsOf(size).every(each => each <= even) ? even : 0
-    readonly property real more: Math.max(0, Math.floor((least - deep(size)) / names.length))
-    readonly property real grown: Math.floor(Math.min(0.25 * more, 16 * Theme.unit))
+    readonly property real more: Math.max(0, Math.floor((least - head - deep(size)) / names.length))
+    readonly property real grown: Math.floor(Math.min(0.25 * more, (Theme.upright ? 20 : 0) * Theme.unit))
     readonly property real low: lowOf(lettering) + grown
     // How high the card is before it looks loose.
-    readonly property real most: Math.floor(deep(size) + names.length * 72 * Theme.unit)
+    readonly property real most: Math.floor(head + deep(size) + names.length * 84 * Theme.unit)
     readonly property real below: Math.round(6 * Theme.unit)
 
     // How large words are at most for the two buttons to have one line each, beside the names or below them.
     function largest(beside: bool): real {
         const wide = pairs * Math.max(...daily.map(text => 1.02 * wordWidths.bold(text, 1) + 2))
         const name = beside ? wordWidths.column(names, 100) / 100 : 0
-        return (across - (beside ? Theme.gap : 0) - (pairs - 1) * apart - 2 * pairs * edge) / (wide + name)
+        return (across - (beside ? Theme.gap + 16 * Theme.unit : 0) - (pairs - 1) * apart - 2 * pairs * edge) / (wide + name)
     }
     function lettered(size: real): real {
         return normal ? Math.floor(Math.max(Math.min(size, 1.1 * Theme.dense), Math.min(size, largest(aside)))) : size
@@ -68,7 +72,7 @@ Rectangle {
         return Math.ceil(Math.max((Theme.upright ? 80 : 72) * Theme.unit, 1.4 * letters + 18 * Theme.unit))
     }
     function high(text: string, letters: real, wide: real): real {
-        return Math.max(lowOf(letters), 1.4 * letters * wordWidths.lines(text, letters, wide - 2 * edge - 2 * letters) + 18 * Theme.unit)
+        return Math.max(lowOf(letters), 1.4 * letters * wordWidths.lines(text, letters, wide - 2 * edge - 1.95 * letters) + 18 * Theme.unit)
     }
     // How many lengths of a break stand in a row.
     function besides(letters: real): int {
@@ -105,7 +109,7 @@ Rectangle {
     }
 
     // Whole pixels, so that the cards of the page end level with each other.
-    height: Math.ceil(Math.max(least, rows.height + 2 * above))
+    height: Math.ceil(Math.max(least, rows.height + head + 2 * above))
     radius: Theme.radius
     color: Theme.white
     border { color: Theme.edge; width: 2 * Theme.unit }
@@ -150,9 +154,18 @@ Rectangle {
         }
     }
 
+    PlainText {
+        visible: actions.titled
+        x: actions.inset
+        y: actions.above + actions.between
+        width: actions.across
+        text: actions.words["console-actions"] ?? ""
+        font { pixelSize: actions.heading; bold: true }
+        color: Theme.faintInk
+    }
     Column {
         id: rows
-        anchors { left: parent.left; right: parent.right; margins: actions.inset; verticalCenter: parent.verticalCenter }
+        anchors { left: parent.left; right: parent.right; margins: actions.inset; verticalCenter: parent.verticalCenter; verticalCenterOffset: actions.head / 2 }
         Line {
             name: actions.words["console-sound"] ?? ""
             first: true

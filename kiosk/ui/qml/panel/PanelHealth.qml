@@ -40,18 +40,18 @@ PanelSection {
     // How high it may be: what it has left is shared among its rows, as long as they still stand together.
     property real most: 0
     readonly property real spare: Math.max(0, Math.min(limit, (most - bare(size)) / (tiled ? 2 : rows + (allWell ? 1.5 : 1))))
-    readonly property real limit: 3 * Theme.gap
+    readonly property real limit: 2 * Theme.gap
     readonly property real step: 10 * Theme.unit
     function column(width: real): real {
         return Math.floor((width - 2 * inset - (columns - 1) * gutter) / columns)
     }
-    // How wide the names are: all alike, except in a single row, where what they leave is for the words behind.
-    function naming(size: real, alone: var): real {
-        return Math.min(0.55 * column(width), 1.02 * Math.max(0, ...(rows > 1 ? lines : [alone]).map(line => wordWidths.bold(line.name, day.share * size))) + 0.3 * size)
+    // How wide the names of its column are: what they leave is for the words behind.
+    function naming(size: real, place: int): real {
+        return Math.min(0.55 * column(width), 1.02 * Math.max(0, ...lines.filter((_, at) => at % columns === place % columns).map(line => wordWidths.bold(line.name, day.share * size))) + 0.3 * size)
     }
     // How high each row is where nothing is left.
     function row(at: int, size: real): real {
-        const each = lines.slice(at * columns, (at + 1) * columns).map(line => wordWidths.plainLines(line.message, day.share * size, column(width) - 1.25 * day.share * size - naming(size, line) - 2 * step))
+        const each = lines.slice(at * columns, (at + 1) * columns).map((line, place) => wordWidths.plainLines(line.message, day.share * size, column(width) - 1.25 * day.share * size - naming(size, place) - 2 * step))
         return Math.max(1, ...each) * Math.ceil(1.4 * day.share * size)
     }
     function bare(size: real): real {
@@ -77,7 +77,8 @@ PanelSection {
     // Its marks stand below those of the notice.
     inset: Math.round(1.4 * Theme.gap)
     visible: lines.length > 0
-    least: Theme.upright && spare === limit ? 0 : most
+    least: Theme.upright ? Math.min(most, wish + 4 * Theme.gap) : most
+    centred: true
     apart: 0
 
     Row {
@@ -163,11 +164,12 @@ PanelSection {
                 model: health.lines
                 delegate: PanelLine {
                     required property var modelData
+                    required property int index
                     line: modelData
                     words: health.words
                     width: health.column(health.width)
                     size: day.share * health.size
-                    named: health.naming(health.size, modelData)
+                    named: health.naming(health.size, index)
                 }
             }
         }

@@ -15,10 +15,13 @@ Rectangle {
     // How high it is at least, where it ends with the actions beside it. All rows are as high then, as theirs are, unless
     // one of them needs more.
     property real lowest: 0
-    readonly property real even: lowest === 0 ? 0 : Math.floor((lowest - 2 * above) / Math.max(1, matters.length))
+    readonly property real even: lowest === 0 ? 0 : Math.floor((lowest - 2 * above - head) / Math.max(1, matters.length))
     readonly property real share: matters.every(matter => high(matter, size) + 2 * between <= even) ? even : 0
-    readonly property real extra: lowest === 0 || share > 0 ? 0 : Math.max(0, Math.floor((lowest - deep(size)) / Math.max(1, matters.length)))
+    readonly property real extra: lowest === 0 || share > 0 ? 0 : Math.max(0, Math.floor((lowest - head - deep(size)) / Math.max(1, matters.length)))
     readonly property var matters: panel.health.matters
+    // Whether it has a heading, and how high that is then.
+    property bool titled: false
+    readonly property real head: titled ? headed(size) : 0
     // The actions that answer one of them: their buttons stand here, and not among the others.
     readonly property var answered: matters.map(matter => matter.action ?? "").filter(action => action !== "")
     readonly property var rest: matters.filter(matter => !isAnswered(matter))
@@ -36,7 +39,7 @@ Rectangle {
     readonly property real answer: answerOf(size)
     readonly property real padding: 28 * Theme.unit
     // Letters of one width are wide.
-    readonly property real typed: Math.max(27 * Theme.unit, 0.86 * size)
+    readonly property real typed: Math.max(25 * Theme.unit, 0.8 * size)
     readonly property real least: (Theme.upright ? 80 : 72) * Theme.unit
     // All answers are as wide as the widest needs, and stand at the end of their rows, or all of them below.
     readonly property real answering: answeringOf(size)
@@ -83,7 +86,13 @@ Rectangle {
         const words = wordWidths.lines(said(matter), size, own) * line(size) + (matter.remedy ? wordWidths.plainLines(matter.remedy, answer, own) * line(answer) : 0)
         return !asides(size) ? words + (answers > 0 ? answers + 6 * Theme.unit : 0) : Math.max(answers, words)
     }
-    // How high it is if it is written so large.
+    function headed(size: real): real {
+        return Math.ceil(1.37 * heading(size)) + between
+    }
+    function heading(size: real): real {
+        return Math.round(Math.max(27 * Theme.unit, 0.86 * size))
+    }
+    // How high it is if it is written so large, without its heading.
     function deep(size: real): real {
         return Math.ceil(matters.reduce((sum, matter) => sum + high(matter, size) + 2 * between + 2 * Theme.unit, 0) - 2 * between - 2 * Theme.unit + 2 * above + 2 * between)
     }
@@ -132,8 +141,7 @@ Rectangle {
             PlainText {
                 width: parent.width
                 text: row.matter === null ? "" : notice.said(row.matter)
-                // What comes first is what to begin with.
-                font { pixelSize: notice.size; bold: row.first }
+                font { pixelSize: notice.size; bold: true }
                 color: Theme.ink
                 wrapMode: Text.Wrap
             }
@@ -173,7 +181,7 @@ Rectangle {
             width: Math.min(notice.answering, row.width - (notice.aside ? 0 : notice.mark))
             enabled: row.action !== "backup" || notice.panel.choices.backup === ""
             least: notice.least
-            ground: row.open || row.first ? Theme.touchable : Theme.white
+            ground: row.open ? Theme.touchable : Theme.white
             horizontalPadding: notice.padding
             words: row.matter?.button ?? ""
             drawing: notice.signs[row.action || "how"] ?? ""
@@ -190,7 +198,7 @@ Rectangle {
     }
 
     // Whole pixels, so that the cards below it end level with the one beside them.
-    height: Math.ceil(Math.max(lowest, rows.height + 2 * above))
+    height: Math.ceil(Math.max(lowest, rows.height + head + 2 * above))
     radius: Theme.radius
     color: Theme.amber
 
@@ -204,9 +212,18 @@ Rectangle {
         color: Theme.white
         border { color: Theme.edge; width: 2 * Theme.unit }
     }
+    PlainText {
+        visible: notice.titled
+        x: notice.inset
+        y: notice.above + notice.between
+        width: notice.across
+        text: notice.panel.words["console-to-do"] ?? ""
+        font { pixelSize: notice.heading(notice.size); bold: true }
+        color: Theme.faintInk
+    }
     Column {
         id: rows
-        anchors { left: parent.left; right: parent.right; margins: notice.inset; verticalCenter: parent.verticalCenter }
+        anchors { left: parent.left; right: parent.right; margins: notice.inset; verticalCenter: parent.verticalCenter; verticalCenterOffset: notice.head / 2 }
         // What has a button is not made anew with the others: the keyboard, or a finger that lies on it, would lose it.
         Matter {
             id: mute

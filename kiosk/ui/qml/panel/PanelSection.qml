@@ -21,6 +21,8 @@ Rectangle {
     property real inset: Math.round(1.1 * Theme.gap)
     // How high it is at least, where it ends with another one beside it.
     property real least: 0
+    // Whether what stands in it has the same air above and below.
+    property bool centred: false
     // What is free above its heading, below that, and below all; and what it takes beside what stands in it.
     readonly property real above: 0.65 * Theme.gap
     readonly property real between: 0.4 * Theme.gap
@@ -49,7 +51,7 @@ Rectangle {
     }
     Column {
         id: body
-        anchors { top: parent.top; left: parent.left; right: parent.right; margins: section.inset; topMargin: section.frame - 0.85 * Theme.gap }
+        anchors { top: parent.top; left: parent.left; right: parent.right; margins: section.inset; topMargin: section.frame - 0.85 * Theme.gap + (section.centred ? Math.floor((section.height - section.wish) / 2) : 0) }
         spacing: section.apart
     }
 }
