@@ -65,10 +65,11 @@ PageFrame {
     function apart(drawing: real): real {
         return Math.max(0.9 * Theme.gap, 88 * Theme.unit + 0.9 * Theme.gap - inset - drawing)
     }
-    // Points have the letters of the boxes, or somewhat smaller ones where these spare them a line.
+    // Points have the letters of the boxes, or somewhat smaller ones where these spare them a line: much smaller ones only
+    // where the page needs it.
     function pointLetters(letters: real): real {
         const lines = less => sum(read.map(each => linesOf(each.text, Math.round(Theme.size(letters - less)))))
-        const tried = [0, 1, 2, 3, 4, 5, 6, 7].map(lines), least = Math.min(...tried)
+        const tried = (carded && !upright ? [0, 1, 2, 3, 4] : [0, 1, 2, 3, 4, 5, 6, 7]).map(lines), least = Math.min(...tried)
         return letters - tried.indexOf(least)
     }
     // How high a line of a box is: letters and lines have whole pixels.
@@ -269,7 +270,8 @@ PageFrame {
                             objectName: "purpose-" + modelData.id
                             width: stack.width
                             large: view.roomy
-                            font.pixelSize: !large ? Theme.reading : Theme.size(view.used[0])
+                            // On a wide page, what need not be ticked is no larger than what is to be read.
+                            font.pixelSize: !large ? Theme.reading : view.carded && !view.upright ? Math.min(Theme.size(view.used[0]), view.pointSize) : Theme.size(view.used[0])
                             horizontalPadding: (large ? 24 : 17) * Theme.unit
                             verticalPadding: (large ? view.used[1] : view.short ? 0.25 : 0.45) * Theme.gap
                             words: modelData.text
