@@ -1,4 +1,4 @@
-"""What a day costs a kiosk: ``python -m tests.bench.day [--sessions 350] [--gaps 3] [--speed 1] [--seconds 60]``.
+"""What a day costs a kiosk: ``python -m tests.bench.day [--sessions 600] [--gaps 3] [--speed 1] [--seconds 60]``.
 
 It prints how much memory and how many handles each session leaves behind, with a robot that fails at random; how long
 the event loop keeps anything waiting in real time; and which share of a core the start screen and a game at rest take.
@@ -15,14 +15,15 @@ import gc
 import os
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from ctypes import CDLL
 from dataclasses import dataclass
 from itertools import count
+from math import sqrt
 from operator import itemgetter
 from pathlib import Path
-from statistics import linear_regression, quantiles
+from statistics import fmean, linear_regression, quantiles
 from time import monotonic, process_time, thread_time
 
 import click
@@ -46,9 +47,6 @@ from tests.bench.stops import queued_ms, watched_stops
 
 WARM_UP = 150
 """Sessions before memory is counted: by then, visitors of all languages and text sizes have had most sentences."""
-
-BLOCK = 10
-"""Of so many sessions the one counts after which least is held: the others hold more that is only about to go."""
 
 BEAT_MS = 5
 
@@ -133,27 +131,39 @@ def kiosk(folder: Path, mode: RunMode, robot: FlakyRobot | None = None) -> Itera
 
 
 def memory(folder: Path, sessions: int) -> None:
-    """Print what each session leaves behind, as a slope over the lowest of each ten after the warm-up."""
-    held: list[int] = []
+    """Print what each session leaves behind, as a slope with its standard error over those that count."""
+    held: dict[int, int] = {}
     handles: list[int] = []
+    counted = min(WARM_UP, sessions // 2)
     with kiosk(folder, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL), FlakyRobot(1)) as app:
         visitors = list(draw_visitors(sessions, 1, app.assigner.study.languages))
-        for usage in rehearse_day(app, 1, visitors, folder):
-            held.append(_held_kib(app))
+        for number, usage in enumerate(rehearse_day(app, 1, visitors, folder)):
+            if number < counted:
+                continue
             handles.append(usage.handles)
-    counted = min(WARM_UP, sessions // 2)
-    held, handles = held[counted:], handles[counted:]
-    block = min(BLOCK, len(held) // 2)
-    lowest = [min(held[at : at + block]) for at in range(0, len(held) - block + 1, block)]
-    slope = linear_regression(range(len(lowest)), lowest).slope / block
+            # The others leave their pages half filled, and in as many ways as there are places to leave.
+            if visitors[number].manner is BehaviourKind.COMPLETES:
+                held[number] = _held_kib(app)
+    slope, error = _fitted(list(held), list(held.values()))
     click.echo(
-        f"memory: {slope:+.1f} KiB a session over {len(held)}, from {lowest[0]} to {lowest[-1]} KiB, "
-        f"at most {max(held)}; handles: {handles[0]}, at most {max(handles)}, {handles[-1]} at the end"
+        f"memory: {slope:+.1f} +/- {error:.1f} KiB a session over {len(handles)}, {fmean(held.values()):.0f} KiB on "
+        f"average; handles: {handles[0]}, at most {max(handles)}, {handles[-1]} at the end"
     )
 
 
+def _fitted(at: Sequence[int], values: Sequence[int]) -> tuple[float, float]:
+    """Return the slope of a line through values by least squares, and its standard error."""
+    line, middle = linear_regression(at, values), fmean(at)
+    rest = sum((value - line.slope * x - line.intercept) ** 2 for x, value in zip(at, values, strict=True))
+    return line.slope, sqrt(rest / (len(at) - 2) / sum((x - middle) ** 2 for x in at))
+
+
 def _held_kib(app: App) -> int:
-    """Return what the process holds when garbage is collected and free memory given back, files left out."""
+    """Return what the process holds when garbage is collected and free memory given back, files left out.
+
+    Qt keeps up to 2 MB of pictures that are not shown any more; which ones differs from visitor to visitor.
+    """
+    app.window.releaseResources()
     context = QQmlEngine.contextForObject(app.window)
     if context is not None:
         context.engine().collectGarbage()
