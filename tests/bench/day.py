@@ -234,14 +234,14 @@ def main() -> int:
     """Measure what is asked for."""
     parser = argparse.ArgumentParser()
     parser.add_argument(
-        "--sessions", type=int, default=WARM_UP + 200, help="sessions for memory, 4 or more; 0 leaves it out"
+        "--sessions", type=int, default=WARM_UP + 450, help="sessions for memory, 20 or more; 0 leaves it out"
     )
     parser.add_argument("--gaps", type=int, default=3, help="sessions in real time; 0 leaves them out")
     parser.add_argument("--speed", type=float, default=1, help="how many times as fast as people their visitors are")
     parser.add_argument("--seconds", type=float, default=60, help="time for each share; 0 leaves them out")
     asked = parser.parse_args()
-    if 0 < asked.sessions < 4:
-        parser.error("--sessions: a slope needs 4 sessions or more")
+    if 0 < asked.sessions < 20:
+        parser.error("--sessions: a slope needs 20 sessions or more")
     os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
     measures = (
         (memory, asked.sessions),
