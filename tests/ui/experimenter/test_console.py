@@ -151,6 +151,31 @@ def test_a_session_that_is_to_go_on_after_all_says_no_time(make_assigner: MakeDe
     assert not assigner.app.screens.kiosk.property("paused")
 
 
+def test_a_session_whose_longest_pause_allows_no_break_can_stay_paused_without_a_time(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(stages=["practice", "game"], idle_ms={"pause": 120_000})
+    assigner.go_to(Stage.PRACTICE)
+    assigner.open_panel()
+    assert [each["value"] for each in choices(assigner)["breaks"]] == ["0"]
+    assigner.click("break-0")
+    assert (choices(assigner)["staysPaused"], choices(assigner)["break"]) == (True, "0")
+    assert assigner.app.screens.kiosk.back_at == ""
+    assigner.click("action-pause")
+    assert not assigner.panel.is_open
+    assert assigner.app.screens.kiosk.property("paused")
+
+
+def test_a_pause_by_shortcut_is_chosen_in_the_panel_and_a_time_takes_its_place(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(stages=["practice", "game"])
+    assigner.go_to(Stage.PRACTICE)
+    assigner.do(Action.PAUSE)
+    assigner.open_panel()
+    assert [each["value"] for each in choices(assigner)["breaks"]] == ["5", "10", "15", "0"]
+    assert choices(assigner)["break"] == "0"
+    assigner.click("break-5")
+    assert [each["value"] for each in choices(assigner)["breaks"]] == ["5", "10", "15"]
+    assert choices(assigner)["break"] == "5"
+
+
 @pytest.mark.parametrize("by_button", [True, False])
 def test_a_break_between_visitors_takes_none_until_it_is_ended(assigner: Desk, *, by_button: bool) -> None:
     kiosk = assigner.app.screens.kiosk
