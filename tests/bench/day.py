@@ -5,13 +5,14 @@ the event loop keeps anything waiting in real time; and which share of a core th
 Shares, memory and work are those of this process alone, so other programs change them little. They do change a gap, as
 does whatever the machine stands on. So gaps are printed as they are, and less what was taken from this thread: its wait
 for a processor, or the time in which programs that only sleep, one on each processor, were not woken either. The longer
-of the two counts.
+of the two counts. With ``--json``, what was measured is also written for ``packaging/benchmarks.py --day``.
 """
 
 from __future__ import annotations
 
 import argparse
 import gc
+import json
 import os
 import sys
 import tempfile
@@ -19,12 +20,14 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from ctypes import CDLL
 from dataclasses import dataclass
+from datetime import date
 from itertools import count
 from math import sqrt
 from operator import itemgetter
 from pathlib import Path
 from statistics import fmean, linear_regression, quantiles
 from time import monotonic, process_time, thread_time
+from typing import Any
 
 import click
 from psutil import Process
@@ -47,6 +50,12 @@ from tests.bench.stops import queued_ms, watched_stops
 
 WARM_UP = 150
 """Sessions before memory is counted: by then, visitors of all languages and text sizes have had most sentences."""
+
+STANDS_MS = 300
+"""How long the start screen stands before memory is counted: what a visitor's pages held is freed by the event loop."""
+
+PREPARES_MS = 5000
+"""A kiosk has prepared its pages by then, and few visitors have read the start screen."""
 
 BEAT_MS = 5
 
@@ -130,8 +139,8 @@ def kiosk(folder: Path, mode: RunMode, robot: FlakyRobot | None = None) -> Itera
         yield app
 
 
-def memory(folder: Path, sessions: int) -> None:
-    """Print what each session leaves behind, as a slope with its standard error over those that count."""
+def memory(folder: Path, sessions: int) -> dict[str, Any]:
+    """Print and return what each session leaves behind, as a slope with its standard error over those that count."""
     held: dict[int, int] = {}
     handles: list[int] = []
     counted = min(WARM_UP, sessions // 2)
@@ -143,12 +152,14 @@ def memory(folder: Path, sessions: int) -> None:
             handles.append(usage.handles)
             # The others leave their pages half filled, and in as many ways as there are places to leave.
             if visitors[number].manner is BehaviourKind.COMPLETES:
+                _stand(app, STANDS_MS)
                 held[number] = _held_kib(app)
     slope, error = _fitted(list(held), list(held.values()))
     click.echo(
         f"memory: {slope:+.1f} +/- {error:.1f} KiB a session over {len(handles)}, {fmean(held.values()):.0f} KiB on "
         f"average; handles: {handles[0]}, at most {max(handles)}, {handles[-1]} at the end"
     )
+    return {"memory": {"sessions": len(handles), "slope_kib": slope, "error_kib": error, "handles": max(handles)}}
 
 
 def _fitted(at: Sequence[int], values: Sequence[int]) -> tuple[float, float]:
@@ -176,13 +187,13 @@ def _held_kib(app: App) -> int:
     return int(usage.rss - getattr(usage, "shared", 0)) // KIB
 
 
-def gaps(folder: Path, sessions: int, speed: float) -> None:
-    """Print how late the event loop is in real time, or so many times as fast, while the robot fails at random."""
+def gaps(folder: Path, sessions: int, speed: float) -> dict[str, Any]:
+    """Print and return how late the event loop is, in real time or faster, while the robot fails at random."""
     with (
         kiosk(folder, RunMode(WindowMode.NOWHERE, ClockMode.WALL, speed), FlakyRobot(1)) as app,
         watched_stops() as stops,
     ):
-        _prepare(app)
+        _stand(app, PREPARES_MS)
         # A kiosk runs its loop once. Here it begins anew with each visitor, and would look through everything again.
         gc.collect()
         gc.freeze()
@@ -194,8 +205,9 @@ def gaps(folder: Path, sessions: int, speed: float) -> None:
         gc.unfreeze()
     stood = [stops.within(gap.begin, gap.end) for gap in seen.found]
     ours = [max(0.0, gap.late - max(gap.queued, still)) for gap, still in zip(seen.found, stood, strict=True)]
+    late = [gap.late for gap in seen.found]
     for what, found in (
-        ("gaps of the loop", [gap.late for gap in seen.found]),
+        ("gaps of the loop", late),
         ("less what the machine took", ours),
         ("the thread's work in them", [gap.worked for gap in seen.found]),
     ):
@@ -209,25 +221,29 @@ def gaps(folder: Path, sessions: int, speed: float) -> None:
             f"{left:.1f} ms are left of a gap of {gap.late:.1f} ms: the thread worked {gap.worked:.1f} ms, others "
             f"{gap.beside:.1f}; it waited {gap.queued:.1f} ms for a processor, and one stood still for {still:.1f} ms"
         )
+    p99_ms = quantiles(late, n=100)[98]
+    return {"gaps": {"sessions": sessions, "beats": len(late), "p99_ms": p99_ms, "longest_ms": max(late)}}
 
 
-def _prepare(app: App) -> None:
-    """Have a kiosk prepare its pages, as it does before a visitor has read the start screen."""
-    QTimer.singleShot(5 * MS_PER_SECOND, app.quit)
+def _stand(app: App, duration_ms: int) -> None:
+    """Let the start screen stand for so long."""
+    QTimer.singleShot(duration_ms, app.quit)
     app.run()
 
 
-def shares(folder: Path, seconds: float) -> None:
-    """Print the shares of a core."""
+def shares(folder: Path, seconds: float) -> dict[str, Any]:
+    """Print and return the shares of a core that the start screen and a game at rest take."""
     with kiosk(folder, RunMode(WindowMode.NOWHERE, ClockMode.WALL)) as app:
-        _prepare(app)
+        _stand(app, PREPARES_MS)
         before, since = process_time(), monotonic()
         QTimer.singleShot(round(seconds * MS_PER_SECOND), app.quit)
         app.run()
-        click.echo(f"start screen: {(process_time() - before) / (monotonic() - since):.1%} of a core")
+        start = (process_time() - before) / (monotonic() - since)
+        click.echo(f"start screen: {start:.1%} of a core")
         resting = Resting(app, seconds)
         resting.run()
         click.echo(f"game at rest: {resting.share:.1%} of a core")
+    return {"shares": {"start_screen": start, "game_at_rest": resting.share}}
 
 
 def main() -> int:
@@ -239,6 +255,7 @@ def main() -> int:
     parser.add_argument("--gaps", type=int, default=3, help="sessions in real time; 0 leaves them out")
     parser.add_argument("--speed", type=float, default=1, help="how many times as fast as people their visitors are")
     parser.add_argument("--seconds", type=float, default=60, help="time for each share; 0 leaves them out")
+    parser.add_argument("--json", type=Path, help="a file for what was measured")
     asked = parser.parse_args()
     if 0 < asked.sessions < 20:
         parser.error("--sessions: a slope needs 20 sessions or more")
@@ -248,10 +265,13 @@ def main() -> int:
         (lambda folder, sessions: gaps(folder, sessions, asked.speed), asked.gaps),
         (shares, asked.seconds),
     )
+    told: dict[str, Any] = {"date": date.today().isoformat()}
     for measure, amount in measures:
         if amount:
             with tempfile.TemporaryDirectory() as folder:
-                measure(Path(folder), amount)
+                told |= measure(Path(folder), amount)
+    if asked.json is not None:
+        asked.json.write_text(json.dumps(told), "utf-8")
     return 0
 
 
