@@ -2,8 +2,12 @@
 
 ``python packaging/benchmarks.py`` takes some minutes on a quiet machine with two processors; ``--sessions
 5000,20000`` measures growth with other numbers of stored sessions. A time is the shortest of its rounds.
+
+A day of visitors takes an hour and is measured by itself: ``python -m tests.bench.day --gaps 200 --speed 10 --json
+day.json``, and then ``python packaging/benchmarks.py --day day.json``, which leaves the rest of the page as it is.
 """
 
+import argparse
 import json
 import os
 import platform
@@ -63,6 +67,17 @@ TAPS = """
 Of each, the middle time, and the time that 99 of 100 keep below. One reference is a press on a square in a bare window.
 The other is a commit of the same bytes to a table without any key: both commits take turns, and the quicker quarter of
 each is compared. Windows have 1920 x 1080 pixels and are drawn without a graphics card.
+
+"""
+
+
+DAY = """
+## A day of visitors
+
+Simulated visitors come one after another to one process. Some leave early, and the robot fails at random. Memory is
+what the process holds after each visitor who completed the study: its slope by least squares, with the standard error.
+The first visitors are left out, who are the first to need a picture or a sentence. A gap is how late a timer of the
+event loop comes. Windows are drawn without a graphics card.
 
 """
 
@@ -186,6 +201,38 @@ def taps(told: dict[str, dict[str, Any]]) -> str:
     )
 
 
+def day(told: dict[str, Any]) -> str:
+    """Return the section about a day of visitors, of what was measured of it."""
+    rows = []
+    if memory := told.get("memory"):
+        slope, error = memory["slope_kib"], memory["error_kib"]
+        which = f"visitors {memory['first']} to {memory['last']}"
+        rows += [
+            [f"memory a visitor, {which}", f"{slope:+.1f} ± {error:.1f} KiB"],
+            [f"open files and sockets at most, {which}", str(memory["handles"])],
+        ]
+    if gaps := told.get("gaps"):
+        rows += [
+            [
+                f"99 of 100 gaps are below, {gaps['visitors']} visitors, {gaps['speed']:g} x speed",
+                f"{gaps['p99_ms']:.1f} ms",
+            ],
+            [f"the longest of {gaps['beats']:,} gaps", f"{gaps['longest_ms']:.1f} ms"],
+        ]
+    if shares := told.get("shares"):
+        rows += [
+            ["the start screen, of one core", f"{shares['start_screen']:.1%}"],
+            ["a game at rest, of one core", f"{shares['game_at_rest']:.1%}"],
+        ]
+    return DAY + f"Measured on {told['date']}.\n\n" + table(["what", "measured"], rows)
+
+
+def divided(text: str) -> tuple[str, str]:
+    """Return a page without its section about a day, and that section; empty if there is none."""
+    before, heading, section = text.partition(DAY[: DAY.index("\n\n")])
+    return before, heading + section
+
+
 def in_words(seconds: float) -> str:
     """Return a time in the unit that suits it."""
     return f"{seconds:.1f} s" if seconds >= 1 else f"{seconds * 1000:.3g} ms"
@@ -198,9 +245,20 @@ def table(head: list[str], rows: list[list[str]]) -> str:
 
 
 def main() -> None:
-    """Measure, and write the page."""
-    sessions = sys.argv[2] if sys.argv[1:2] == ["--sessions"] else SESSIONS
-    PAGE.write_text(page(measured(sessions)), "utf-8")
+    """Measure, and write the page; or write its section about a day from what was measured of one."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--sessions", default=SESSIONS, help="numbers of stored sessions, with commas between them")
+    parser.add_argument("--day", type=Path, nargs="+", help="files that tests.bench.day has written")
+    asked = parser.parse_args()
+    before, section = divided(PAGE.read_text("utf-8"))
+    if asked.day:
+        told: dict[str, Any] = {}
+        for file in asked.day:
+            told |= json.loads(file.read_text("utf-8"))
+        section = day(told)
+    else:
+        before = page(measured(asked.sessions))
+    PAGE.write_text(before + section, "utf-8")
 
 
 if __name__ == "__main__":

@@ -159,7 +159,8 @@ def memory(folder: Path, sessions: int) -> dict[str, Any]:
         f"memory: {slope:+.1f} +/- {error:.1f} KiB a session over {len(handles)}, {fmean(held.values()):.0f} KiB on "
         f"average; handles: {handles[0]}, at most {max(handles)}, {handles[-1]} at the end"
     )
-    return {"memory": {"sessions": len(handles), "slope_kib": slope, "error_kib": error, "handles": max(handles)}}
+    which = {"first": counted + 1, "last": sessions}
+    return {"memory": {**which, "slope_kib": slope, "error_kib": error, "handles": max(handles)}}
 
 
 def _fitted(at: Sequence[int], values: Sequence[int]) -> tuple[float, float]:
@@ -222,7 +223,8 @@ def gaps(folder: Path, sessions: int, speed: float) -> dict[str, Any]:
             f"{gap.beside:.1f}; it waited {gap.queued:.1f} ms for a processor, and one stood still for {still:.1f} ms"
         )
     p99_ms = quantiles(late, n=100)[98]
-    return {"gaps": {"sessions": sessions, "beats": len(late), "p99_ms": p99_ms, "longest_ms": max(late)}}
+    which = {"visitors": sessions, "speed": speed, "beats": len(late)}
+    return {"gaps": {**which, "p99_ms": p99_ms, "longest_ms": max(late)}}
 
 
 def _stand(app: App, duration_ms: int) -> None:

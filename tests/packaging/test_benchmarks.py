@@ -28,6 +28,31 @@ def test_only_sessions_are_counted_as_sizes() -> None:
     assert "| warm | 1.1 s |" in page
 
 
+def test_a_day_is_written_below_the_rest_of_the_page_and_is_kept_when_the_rest_is_written() -> None:
+    benchmarks = load("benchmarks")
+    told = {
+        "date": "2026-12-01",
+        "memory": {"first": 151, "last": 600, "slope_kib": 0.42, "error_kib": 0.66, "handles": 15},
+        "gaps": {"visitors": 200, "speed": 10, "beats": 623_039, "p99_ms": 10.2, "longest_ms": 48.3},
+        "shares": {"start_screen": 0.054, "game_at_rest": 0.013},
+    }
+    section = benchmarks.day(told)
+    assert "| memory a visitor, visitors 151 to 600 | +0.4 ± 0.7 KiB |" in section
+    assert "| 99 of 100 gaps are below, 200 visitors, 10 x speed | 10.2 ms |" in section
+    assert "| the longest of 623,039 gaps | 48.3 ms |" in section
+    assert "| the start screen, of one core | 5.4% |" in section
+    rest = "# Benchmarks\n\nA table.\n"
+    assert benchmarks.divided(rest) == (rest, "")
+    assert benchmarks.divided(rest + section) == (rest, section)
+
+
+def test_a_part_of_a_day_can_be_measured_alone() -> None:
+    told = {"date": "2026-12-01", "shares": {"start_screen": 0.054, "game_at_rest": 0.013}}
+    section = load("benchmarks").day(told)
+    assert "| a game at rest, of one core | 1.3% |" in section
+    assert "memory a visitor" not in section
+
+
 def test_taps_are_told_beside_their_references() -> None:
     percentiles = {"p50_us": 8000.0, "p99_us": 12_000.0}
     names = ("tap_to_first_changed_frame", "durable_event", "decision[tom]", "decision[notom]")
