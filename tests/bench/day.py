@@ -52,7 +52,7 @@ WARM_UP = 150
 """Sessions before memory is counted: by then, visitors of all languages and text sizes have had most sentences."""
 
 STANDS_MS = 300
-"""How long the start screen stands before memory is counted: what a visitor's pages held is freed by the event loop."""
+"""How long the start screen stands between visitors: the event loop frees what the pages of a visitor held."""
 
 PREPARES_MS = 5000
 """A kiosk has prepared its pages by then, and few visitors have read the start screen."""
@@ -147,12 +147,12 @@ def memory(folder: Path, sessions: int) -> dict[str, Any]:
     with kiosk(folder, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL), FlakyRobot(1)) as app:
         visitors = list(draw_visitors(sessions, 1, app.assigner.study.languages))
         for number, usage in enumerate(rehearse_day(app, 1, visitors, folder)):
+            _stand(app, STANDS_MS)
             if number < counted:
                 continue
             handles.append(usage.handles)
             # The others leave their pages half filled, and in as many ways as there are places to leave.
             if visitors[number].manner is BehaviourKind.COMPLETES:
-                _stand(app, STANDS_MS)
                 held[number] = _held_kib(app)
     slope, error = _fitted(list(held), list(held.values()))
     click.echo(
