@@ -148,12 +148,14 @@ def memory(folder: Path, sessions: int) -> dict[str, Any]:
         visitors = list(draw_visitors(sessions, 1, app.assigner.study.languages))
         for number, usage in enumerate(rehearse_day(app, 1, visitors, folder)):
             _stand(app, STANDS_MS)
+            # Also before the first that counts: memory that is given back is taken anew from other places.
+            kib = _held_kib(app)
             if number < counted:
                 continue
             handles.append(usage.handles)
             # The others leave their pages half filled, and in as many ways as there are places to leave.
             if visitors[number].manner is BehaviourKind.COMPLETES:
-                held[number] = _held_kib(app)
+                held[number] = kib
     slope, error = _fitted(list(held), list(held.values()))
     click.echo(
         f"memory: {slope:+.1f} +/- {error:.1f} KiB a session over {len(handles)}, {fmean(held.values()):.0f} KiB on "
